@@ -96,7 +96,7 @@ lowest: tools ## the library's tests with the lowest versions that pyproject.tom
 slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults; says what is missing for it
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
-faults: tools ## kill runs, start two at once, damage files, fill the disk (10 minutes)
+faults: tools ## kill runs and commands, start two at once, damage and mistype files, fill the disk (12 minutes)
 	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
 mutants: tools .venv/extras ## plant small random errors in the code, and list those that no test notices, with the time left: docs/mutants.md

@@ -40,7 +40,7 @@ settings.load_profile("untimed")
 ROOT = Path(__file__).parents[1]
 PARTS = [".gitignore", "Snakefile", "config.yaml", "README.md", "workflow", "recalib", "profiles"]
 PARTS += ["replication", "tests", "docs", "figures"]
-SHARED = "synthetic", "rules"  # fixtures that one process makes for all
+SHARED = "figures", "rules"  # fixtures that one process makes for all
 
 
 def loaded_with(statement: str, heavy: set[str]) -> set[str]:

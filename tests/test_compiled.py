@@ -7,9 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pytest
 from numba import config
-from numba.core import caching
 
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.kernels import WAITING
@@ -30,13 +28,6 @@ def over(one, other):
 
 def test_a_division_by_zero_is_infinite_as_in_numpy():
     assert compiled(over)(1.0, 0.0) == np.inf
-
-
-def test_where_nothing_can_be_kept_it_is_compiled_all_the_same(monkeypatch):
-    monkeypatch.setattr(caching.CacheImpl, "_locator_classes", [])
-    with pytest.raises(RuntimeError, match="no locator available"):
-        caching.FunctionCache(over)
-    assert compiled(over)(1.0, 4.0) == 0.25
 
 
 def go_through_all_loops() -> None:

@@ -1,12 +1,10 @@
 """Bad measurements are refused by their name, or survived: never a quiet wrong answer."""
 
 from dataclasses import replace
-from itertools import islice
 
 import numpy as np
 import pytest
 
-from recalib.damaged.plant import Plant
 from recalib.errors import BadMeasurement
 from recalib.identification.calibration import calibrate
 from recalib.identification.estimation import identify
@@ -15,14 +13,8 @@ from recalib.identification.model.observations import Observations
 from recalib.learners.kinds import KINDS
 from recalib.loop.external import ExternalRobot
 from recalib.loop.interfaces import Outcome
-from recalib.loop.moves import OUTSIDE, WRAPPED, check_moves
+from recalib.loop.moves import check_moves
 from recalib.nominal.poses import position_error
-from replication.scenarios.assignments import Ways
-from replication.training.ensemble import feasible, scaled_arm
-from replication.training.poses import Stream
-from replication.training.settings import Space
-from replication.training.trials import Trials
-from replication.training.tuned import rules_of
 
 RUNS = 2
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 6))
@@ -108,28 +100,6 @@ def test_a_learner_survives_equal_poses(name, makers):
     left = learner.command(DESIRED[:, None]) + 0.01 - DESIRED[:, None]
     assert np.abs(left).max() < 0.005
     assert np.isfinite(learner.command(TESTS)).all()
-
-
-def test_the_study_s_most_serious_damage_is_far_from_refused(controller, plan, study, monkeypatch):
-    """Its largest scale, under a search that tries whatever settings."""
-    farthest = []
-    monkeypatch.setattr(
-        "recalib.learners.hierarchical.check_moves",
-        lambda sent, came, *_: farthest.append(
-            np.max(np.abs(came).max(axis=-1) - WRAPPED * np.abs(sent).max(axis=-1))
-        ),
-    )
-    damage, links = study.paper_damage, plan.nominal("ur10").robot.links
-    ways = Ways(links, damage.shorten, controller.robot.joints, damage.shift)
-    scale = max(study.experiments.ensemble["improved"]["scaled"].scales)
-    order = np.random.default_rng(5).permutation(len(ways))
-    damages = islice(feasible(controller.robot, ways, order, scale), 8)
-    arms = [scaled_arm(controller.robot, damage, scale) for damage in damages]
-    space = Space(rules_of(study.learners["ritter"]), study.search.ranges)
-    poses = Stream.SEARCH.draw(7, [0], 40, 5, number=1, setup=0, replicate=0)
-    points = np.random.default_rng(6).uniform(size=(len(arms), len(space.coordinates)))
-    Trials(space, poses, lambda _: Plant(controller, arms)).outcome(space.rows(points))
-    assert 0 < max(farthest) < OUTSIDE / 3
 
 
 def scaled(pose, factor):

@@ -129,13 +129,3 @@ def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, com
 def test_impossible_sizes_are_refused_by_name(kind, sizes, message):
     with pytest.raises(InvalidSetting, match=message):
         kind(*sizes)
-
-
-def test_disturbances_are_gathered_from_their_parts():
-    parts = noise, outliers, repeatability = (
-        Noise(1e-3, 1e-4),
-        Outliers(0.1, 0.05),
-        Repeatability(1e-3),
-    )
-    assert Disturbances.of(parts[:2]) == Disturbances(noise=noise, outliers=outliers)
-    assert Disturbances.of(parts) == Disturbances(noise, repeatability, outliers)

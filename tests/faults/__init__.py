@@ -1,1 +1,1 @@
-"""Faults that befall a run, tried one after the other: `make faults`."""
+"""Faults that befall runs, commands and their files, tried one after the other: `make faults`."""

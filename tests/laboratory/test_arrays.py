@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
-from recalib.errors import InvalidSetting, RecalibError
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.errors import RecalibError
 from recalib.laboratory.calibrate import calibrate
 from tests.laboratory.conftest import postures
 
@@ -98,18 +98,3 @@ def test_one_posture_is_a_row_of_many(arm):
         (arm.gravity_torque(JOINTS), arm.gravity_torque(JOINTS[3])),
     ):
         assert np.array_equal(many[3], one)
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        lambda: EncoderShift("lift", 4),
-        lambda: EncoderShift("lift", "4 deg"),
-        lambda: LinkShortening("link_2", 40.0),
-        lambda: BaseShift((0.0, 0.1)),
-        lambda: BaseShift(rotation=(0.0, 0.0, 90.0)),
-    ],
-)
-def test_amounts_and_shapes_that_cannot_be(wrong):
-    with pytest.raises(InvalidSetting, match="is .*; expected: "):
-        wrong()

@@ -25,10 +25,3 @@ def test_drawings_name_their_axes_and_are_the_same_again(result):
         assert "<metadata" not in text
     assert draw_arm(result) == (arm, longer)
     assert longer * max(_errors(result, 0, 1.0)["before"]) == pytest.approx(0.12, rel=0.5)
-
-
-def test_the_errors_that_are_drawn_are_lengths_of_positions(result):
-    errors = _errors(result, 0, 1e3)
-    rows = result.validation.errors("in blocks", result.validation.chosen)[result.counted, 0]
-    assert errors["after"] == pytest.approx(1e3 * rows)
-    assert errors["before"].mean() > 10 * errors["after"].mean()

@@ -4,8 +4,6 @@ import os
 import re
 import resource
 import shutil
-import signal
-import sys
 import tempfile
 from contextlib import chdir, redirect_stderr
 from io import StringIO
@@ -128,83 +126,6 @@ def test_after_any_run_all_that_was_there_is_as_it_was(laboratory, entries, comm
         added = after.keys() - before.keys()
         assert bool(added) == (code == DONE)
         assert not [name for name in added if ".part" in name]
-
-
-@pytest.fixture
-def strike():
-    """A function that has something done where files are touched for the n-th time from now.
-
-    It returns what ends the waiting, and tells whether it was in vain.
-    """
-    events = {"open", "os.mkdir", "os.rename", "os.rmdir", "os.remove", "os.listdir", "os.scandir"}
-    waiting = []
-
-    def hook(event: str, _) -> None:
-        if waiting and event in events:
-            waiting[0] -= 1
-            if not waiting[0]:
-                waiting.pop(0)
-                waiting.pop(0)()
-
-    sys.addaudithook(hook)
-
-    def at(number: int, do):
-        waiting[:] = [number, do]
-
-        def in_vain() -> bool:
-            left = bool(waiting)
-            waiting.clear()
-            return left
-
-        return in_vain
-
-    yield at
-    waiting.clear()
-
-
-def test_killed_at_any_moment_it_leaves_all_or_nothing_and_the_next_run_tidies_up(tmp_path, strike):
-    number, killed = 0, True
-    while killed:
-        number += 1
-        folder = tmp_path / str(number)
-        folder.mkdir()
-        (folder / "mine").write_text("mine")
-        if not (child := os.fork()):
-            strike(number, lambda: os.kill(os.getpid(), signal.SIGKILL))
-            write_new(folder / "out", TWO)
-            os._exit(0)
-        _, status = os.waitpid(child, 0)
-        killed = os.WIFSIGNALED(status)
-        names = {path.name for path in folder.iterdir() if not path.name.startswith(".recalib-")}
-        assert names <= {"mine", "out"}
-        if "out" not in names:
-            assert killed
-            write_new(folder / "out", TWO)
-            assert {path.name for path in folder.iterdir()} == {"mine", "out"}
-        assert content(folder / "out") == TWO
-        assert (folder / "mine").read_text() == "mine"
-    assert number > 5
-
-
-@pytest.mark.parametrize("command", ["calibrate", "urdf"])
-def test_what_is_printed_of_an_interruption_is_true(command, laboratory, tmp_path, strike):
-    def interrupt():
-        raise KeyboardInterrupt
-
-    number, struck, whole = 0, True, None
-    while struck:
-        number, out = number + 1, tmp_path / str(number)
-        in_vain = strike(number, interrupt)
-        code, printed = run(laboratory, *COMMANDS[command], f"--out={out}")
-        struck = not in_vain()
-        if struck and code == REFUSED:
-            how = "complete" if out.exists() else "not written"
-            assert printed.splitlines()[-1] == f"recalib: interrupted; {out} is {how}"
-        if out.exists():
-            written = content(out) if out.is_dir() else out.read_bytes()
-            assert whole in (None, written)
-            whole = written
-    assert number > 5 and whole is not None
 
 
 @pytest.mark.parametrize(

@@ -50,7 +50,7 @@ PARTS = {
     "damaged": Part(("recalib/damaged",), ("tests/damaged", EXPERIMENTS[1])),
     "configuration": Part(
         tuple(f"replication/config/{name}.py" for name in ("units", "values", "damages")),
-        ("tests/replication/config",),
+        ("tests/replication/config", "tests/faults/test_settings.py"),
     ),
 }
 TOO_LONG = (  # tests that take minutes: no mutant meets them

@@ -1,11 +1,8 @@
 """A calibration that moves the arm itself: when it ends, what it asks, and what stops it."""
 
 import os
-import random
 import re
 import signal
-import subprocess
-import sys
 import threading
 import time
 from dataclasses import replace
@@ -25,7 +22,7 @@ from recalib.laboratory.live.session import Answer, Interrupted, LiveSettings, c
 from recalib.laboratory.tables.description import Description
 from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed
-from tests.conftest import ROOT, few_folds
+from tests.conftest import few_folds
 from tests.identification.real import anywhere
 from tests.logged import logged
 from tests.station.conftest import FINE
@@ -158,7 +155,7 @@ def test_it_ends_if_more_is_of_no_use_or_if_it_is_as_long_as_allowed(lived, tmp_
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("recalib.laboratory.live.session.SOON", len(lived.rows))
         patch.setattr("recalib.laboratory.live.session.USELESS", 0.5)
-        assert again(error=1e-6).reason.endswith("10 more rows would reduce it by less than 5 %")
+        assert again(error=1e-6).reason.endswith("10 more rows would reduce it by less than 50 %")
 
 
 @pytest.mark.usefixtures("all_postures")
@@ -229,21 +226,23 @@ STOPPED = {  # by what is said, what a station does
     "for 0.3 s the station has not answered when asked to measure": {
         "measured": lambda station, cells: time.sleep(1)
     },
-    "no row: row 4 of column 'y' is 'nan'; expected: a number": {
+    "is invalid: row 4 of column 'y' is 'nan'; expected: a number": {
         "measured": lambda station, cells: (
             cells | {"y [m]": np.nan} if measured(station) == 4 else cells
         )
     },
-    "no row: its columns are .*, qw; the station gives .*, heat": {
+    "is invalid: its columns are .*, qw; the station gives .*, heat": {
         "measured": lambda station, cells: (
             cells if measured(station) < 4 else cells | {"heat": 20.0}
         )
     },
-    "no row: no positions are measured in it; expected: x, y and z": {
+    "is invalid: no positions are measured in it; expected: x, y and z": {
         "measured": lambda station, cells: {"picture": "000.png"}
     },
-    "in row 1. the target was measured .* mm from where the .* rows before": {"measured": stuck},
-    "not seen the target in 10 postures, .* try: a smaller --span": {
+    "in row 1. the target was measured .* mm from its prediction by the .* rows before": {
+        "measured": stuck
+    },
+    "out of sight in 10 postures in a row.* try: a smaller --span": {
         "measured": lambda station, cells: cells if measured(station) < 2 else None
     },
     "the target is out of sight in the first posture; try: start where the instrument sees it": {
@@ -252,23 +251,17 @@ STOPPED = {  # by what is said, what a station does
     "the station's joints are joint_0, .*; expected: those of the arm": {
         "joints": [f"joint_{number}" for number in range(6)]
     },
-    "asked to tell its limits, the station raised TypeError": {"limits": None},
     **{
         f"the station's angles are {found}": {"angles": lambda station, angles, wrong=wrong: wrong}
         for found, wrong in (
             (r"\[0.0, .*, nan\]; expected: 6 finite numbers", [0.0] * 5 + [np.nan]),
-            (r"\[0.0, .*\]; expected: 6 finite numbers", [0.0] * 7),
             ("'none'; expected: numbers", "none"),
         )
     },
-    "asked to tell its limits, the station raised ValueError": {"limits": [np.zeros(6)] * 3},
-    "the station's lower limits are .*; expected: 6 finite numbers": {
-        "limits": (np.full(6, -np.inf), np.full(6, 2.0))
-    },
-    "no row: 000.png is in an earlier row; expected: a new file for each picture": {
+    "is invalid: 000.png is in an earlier row; expected: a new file for each picture": {
         "measured": lambda station, cells: cells | {"picture": "000.png"}
     },
-    "no row: it has more than one column 'elbow_joint'": {
+    "is invalid: it has more than one column 'elbow_joint'": {
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },
     "limits of shoulder_pan_joint are the wrong way round": {
@@ -402,7 +395,7 @@ def test_a_table_is_begun_by_us_and_written_by_one(tmp_path):
 
     run(station, tmp_path, ask)
     table.write_text(table.read_text().replace("elbow_joint [rad]", "elbow_joint [deg]"))
-    with pytest.raises(InvalidFile, match=r"no column 'elbow_joint \[rad\]'"):
+    with pytest.raises(InvalidFile, match=r"column 'elbow_joint \[rad\]'"):
         run(Simulated(), tmp_path)
 
 
@@ -482,56 +475,3 @@ def test_without_a_station_nothing_is_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(LINE.format("Unheard").split()) == REFUSED
     assert "rows are in" not in capsys.readouterr().err and not list(tmp_path.iterdir())
-
-
-@pytest.mark.slow
-def test_killed_at_any_moment_it_goes_on_as_if_it_had_not_been(tmp_path):
-    once, killed = tmp_path / "once", tmp_path / "killed"
-    with begun(once) as process:
-        process.communicate()
-    moments, before, lost = random.Random(8), [], 0
-    for _ in range(5):
-        with begun(killed) as process:
-            while "row" not in process.stderr.readline():  # it is about to make its first move
-                pass
-            time.sleep(moments.uniform(0, 0.3))
-            process.kill()
-            process.communicate()
-        assert process.returncode == -signal.SIGKILL
-        assert written(killed)[: len(before)] == before
-        before = written(killed)
-        # what was measured and not yet on the disk is lost with the process: one row, and no more
-        assert unwritten(killed) - lost in (0, 1)
-        lost = unwritten(killed)
-    with begun(killed) as process:
-        process.communicate()
-    assert process.returncode == DONE
-    assert written(killed) == written(once) and len({*written(once)}) == len(written(once))
-    taken = (killed / "measured").read_text().splitlines()
-    assert unwritten(killed) == lost and len({*taken}) == len(written(once)) - 1
-
-
-def begun(folder):
-    """`recalib live` in a folder, in a process of its own."""
-    folder.mkdir(exist_ok=True)
-    line = LINE.format("Lasting").replace("14", "40")  # it ends before that
-    return subprocess.Popen(
-        [sys.executable, "-m", "recalib", *line.split(), "--yes"],
-        cwd=folder,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
-
-def written(folder) -> list[str]:
-    table = folder / "measurements.csv"
-    return table.read_text().splitlines() if table.exists() else []
-
-
-def unwritten(folder) -> int:
-    """How many measurements are not in the table."""
-    log = folder / "measured"
-    taken = len(log.read_text().splitlines()) if log.exists() else 0
-    return taken - len(written(folder)[1:])

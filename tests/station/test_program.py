@@ -136,6 +136,7 @@ def test_the_example_in_another_language_is_a_station(tmp_path, monkeypatch):
     assert ended == ("you ended it", 11)
 
 
+@pytest.mark.slow  # a whole session
 def test_the_example_in_python_is_a_station(tmp_path, capsys):
     """By the command, with a floor and all."""
     example = ROOT / "examples" / "station.py"

@@ -329,16 +329,6 @@ def test_what_is_no_picture_is_refused_in_a_sentence(taken, monkeypatch):
         assert re.search(reason, picture.reason), picture.name
 
 
-def test_nine_pictures_are_too_few(taken):
-    *_, files = taken(10)
-    shutil.copy(files[0] / "000.png", files[0] / "009.png")
-    said = (
-        "9 of 10 pictures can be used; expected: at least 10; 009.png: it is the same picture as 0"
-    )
-    with pytest.raises(RecalibError, match=said):
-        observe(*files)
-
-
 def published(command: str) -> np.ndarray:
     """The pose (4, 4) [m] that a command of ROS 2 publishes, as tf2 reads its options."""
     words = command.split()

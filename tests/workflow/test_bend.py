@@ -47,13 +47,8 @@ def test_the_page_names_every_study_to_begin_with():
     ("command", "said"),
     [
         ("study STUDY=my_arm", "snakemake --cores 2 --configfile my_arm.yaml --quiet"),
-        ("quick", "snakemake --cores 2 --configfile workflow/studies/quick.yaml --quiet"),
         ("view STUDY=my_arm", "127.0.0.1 --new results/studies/my_arm/recordings/fall.rrd"),
         ("web STUDY=my_arm", "watch results/studies/my_arm --port 9090"),
-        (
-            "view SCENARIO=links",
-            "CI=true .venv/bin/rerun --bind 127.0.0.1 --new results/recordings",
-        ),
     ],
 )
 def test_a_command_speaks_of_its_study(project, command, said):

@@ -24,7 +24,6 @@ PAGES = [  # as they are written: those with results as templates
 BLOCK = re.compile(r"^ *```(\w*)\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
 CONTINUED = re.compile(r"\\\n *")  # on the next line
 MODULE = re.compile(r"`(python -m [^`]+)`")  # in the text
-PROGRAM = re.compile(r"^ *(\S*python|pip|make|snakemake|recalib|git) ", re.MULTILINE)
 LONG = {"quick", "faults", "reproduce", "mutants", "tune", "campaign"}
 TIME = re.compile(r"minutes|hour|time left")
 SETTING = ". .venv/bin/activate", "cd examples"  # for the commands after it
@@ -42,12 +41,6 @@ def commands() -> list[str]:
     }
     modules = {command for text in texts for command in MODULE.findall(text)}
     return sorted({*filter(None, lines), *modules} - {*SETTING})
-
-
-@pytest.mark.parametrize("page", PAGES, ids=[page.name for page in PAGES])
-def test_a_block_of_commands_is_one_of_sh(page):
-    blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
-    assert not [block for language, block in blocks if language != "sh" and PROGRAM.search(block)]
 
 
 @pytest.fixture(scope="module")

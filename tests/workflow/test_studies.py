@@ -1,7 +1,6 @@
 """Which study a call has, and that the shipped one alone writes what is committed."""
 
 import json
-from pathlib import Path
 
 import pytest
 
@@ -23,14 +22,6 @@ def test_a_changed_study_is_refused_under_the_shipped_name(with_studies):
         of_call(with_studies, robot="ur3", seed=5)
     mine = of_call(with_studies, robot="ur3", name="mine")
     assert (mine.name, mine.robot) == ("mine", "ur3")
-
-
-def test_where_copies_of_data_lie_is_no_change(with_studies):
-    mine, others = str(with_studies / "mine.csv"), str(with_studies / "others.csv")
-    for path in (mine, others):
-        Path(path).touch()
-    places = {"data": {"fit": {"file": mine}, "test": {"file": others}}}
-    assert of_call(with_studies, real=places).real.data.fit.file == mine
 
 
 def test_another_study_can_be_shipped(with_studies):

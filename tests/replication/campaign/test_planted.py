@@ -92,9 +92,7 @@ VERDICTS = Verdict.SUPPORTED, Verdict.CONTRADICTED, Verdict.NO_EFFECT, Verdict.D
 YES, NO, NONE, DEPENDS = VERDICTS
 WORLDS = {
     "a narrow g_k for positions": ("widths-position", POSITION, widths_of_two_maps, 2 * OFTEN, YES),
-    "a wide g_k for positions": ("widths-position", POSITION, widths_of_two_maps, -2 * OFTEN, NO),
     "equal widths for positions": ("widths-position", POSITION, widths_of_two_maps, SAME, NONE),
-    "either width, by setup": ("widths-position", POSITION, widths_of_two_maps, 4 * SIGNS, DEPENDS),
     "a wide g_k for orientations": (
         "widths-orientation",
         ORIENTATION,
@@ -102,22 +100,13 @@ WORLDS = {
         2 * OFTEN,
         YES,
     ),
-    "a narrow g_k for orientations": (
-        "widths-orientation",
-        ORIENTATION,
-        widths_of_two_maps,
-        -2 * OFTEN,
-        NO,
-    ),
     "wide neighbourhoods hurt": ("large-neighbourhoods", WIDE, widths_of_two_maps, OFTEN, YES),
     "one map has two optima": ("no-good-solution", ONE, one_map, 2.5 * OFTEN, YES),
     "one map has one optimum": ("no-good-solution", ONE, one_map, SAME, NONE),
     "increments of theta help": ("theta-increments", THETA, without, 0.25 * OFTEN, YES),
-    "increments of theta hurt": ("theta-increments", THETA, without, -0.25 * OFTEN, NO),
     "increments of theta do nothing": ("theta-increments", THETA, without, SAME, NONE),
     "increments help here, hurt there": ("theta-increments", THETA, without, SIGNS, DEPENDS),
     "positions spare the supernet": ("cells-position", CELLS, small, 0.3 * OFTEN, YES),
-    "positions need the supernet": ("cells-position", CELLS, small, -0.3 * OFTEN, NO),
     "a drastic change takes the advantage": ("not-drastic", DRASTIC, drastic, 0.8 * OFTEN, YES),
     "a drastic change changes nothing": (
         "not-drastic",
@@ -128,7 +117,6 @@ WORLDS = {
     ),
     "Ritter's map needs long": ("long", [IMPROVED, DOUBLE], learning, np.log(90) * OFTEN, YES),
     "Ritter's map is nearly as fast": ("long", [IMPROVED, DOUBLE], learning, 1.5 * OFTEN, NO),
-    "Ritter's map does not get there": ("long", [IMPROVED, DOUBLE], learning, 6.5 * OFTEN, YES),
 }
 
 

@@ -1,15 +1,10 @@
 """Arms of one's own: each that can serve its workspace is run, and what is in its files counts."""
 
-import os
-import shutil
-from pathlib import Path
-
 import numpy as np
 import pytest
 import yaml
 
-from recalib.nominal.arms import find_urdf, load_arm
-from recalib.nominal.meshes import mesh_files
+from recalib.nominal.arms import load_arm
 from replication.config.messages import InvalidConfiguration
 from replication.running.studies import study_of
 from tests.conftest import ROOT
@@ -84,44 +79,4 @@ def test_links_of_ones_own_are_asked_of_the_papers_damage_alone_where_it_is_used
         InvalidConfiguration,
         match="list of 3; expected: at most 1, one for each of robots.mine.links",
     ):
-        with_arm(tmp_path, entry)
-
-
-@pytest.fixture
-def copied(tmp_path):
-    """A URDF with its meshes, as a user has them."""
-    row = next(row for row in ARMS if row["urdf"] == "ur3_robot.urdf")
-    urdf = find_urdf(row["urdf"])
-    package = tmp_path / urdf.parents[1].name
-    shutil.copytree(urdf.parents[1] / "meshes" / "ur3", package / "meshes" / "ur3")
-    text = urdf.read_text().replace("example-robot-data/robots/", "")
-    (package / "arm.urdf").write_text(text)
-    return entry_of(row) | {"urdf": str(package / "arm.urdf")}, package
-
-
-def edit(path: Path, old: bytes, new: bytes) -> None:
-    """Other content with the date that it had."""
-    date, content = path.stat(), path.read_bytes()
-    assert old in content
-    path.write_bytes(content.replace(old, new, 1))
-    os.utime(path, ns=(date.st_atime_ns, date.st_mtime_ns))
-
-
-def test_a_packaged_urdf_counts_by_its_content_too(plan):
-    digests = {plan.nominal(name).urdf_sha256 for name in ("ur10", "ur5", "ur3", "z1", "jaco")}
-    assert len(digests) == 5
-
-
-def test_the_meshes_of_an_arm_of_ones_own_are_found(copied):
-    _, package = copied
-    meshes = mesh_files(package / "arm.urdf")
-    assert len(meshes) == 7 and all(path.is_relative_to(package) for path in meshes)
-
-
-def test_an_edited_urdf_that_no_longer_serves_its_workspace_is_refused_at_once(copied, tmp_path):
-    """Of what was once right, nothing is remembered."""
-    entry, package = copied
-    with_arm(tmp_path, entry)
-    edit(package / "arm.urdf", b"0.24365", b"0.00365")
-    with pytest.raises(InvalidConfiguration, match="robots.mine.workspace does not fit"):
         with_arm(tmp_path, entry)

@@ -1,7 +1,6 @@
 """Every change of what is registered has an entry, and the entry says what git says."""
 
 import subprocess
-import sys
 from datetime import UTC, datetime
 
 import pytest
@@ -54,23 +53,3 @@ def test_entries_have_the_times_of_their_commits(told):
         pytest.skip("needs the project's history")
     at = [datetime.fromtimestamp(int(its), UTC) for its in ran.stdout.split()]
     assert [*stated.values()] == [f"{its:%Y-%m-%d %H:%M}" for its in at]
-
-
-def test_the_command_prints_what_an_entry_has_to_name(tmp_path):
-    """In a project in which the page of registration has changed."""
-    for folder in ("replication", "workflow", "docs"):
-        (tmp_path / folder).symlink_to(ROOT / folder)
-    (tmp_path / "config.yaml").write_bytes((ROOT / "config.yaml").read_bytes())
-    (tmp_path / "docs").unlink()
-    (tmp_path / "docs").mkdir()
-    (tmp_path / "docs" / "registration.md").write_text("other")
-    ran = subprocess.run(
-        [sys.executable, "-m", "replication.judgement.deviations"],
-        cwd=tmp_path,
-        env={"PYTHONPATH": str(ROOT)},
-        text=True,
-        capture_output=True,
-        check=True,
-    )
-    names = [line.split(":")[0].strip('"') for line in ran.stdout.splitlines()]
-    assert "docs/registration.md" in names

@@ -9,37 +9,19 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.campaign.variants import variants
 from replication.config.shipped import root_of
 from replication.config.study import Study
 from replication.judgement.claims import judge
 from replication.judgement.evidence import Evidence
 from replication.judgement.findings import written
-from replication.training.measured import ERRORS, KINDS
+from replication.training.measured import ERRORS
 from replication.training.plan import Place, places
 from tests.conftest import ROOT
+from tests.replication.plots.conftest import outcomes
 
 COMMITTED = "config.yaml", "workflow/deviations.yaml"
 CAMPAIGN = "workflow/campaign/design.csv", "workflow/campaign/second.yaml"
 INITIAL, FINAL = (8.4, 4.7), (0.32, 0.23)  # cm, degrees
-LUCK, BETWEEN = 0.01, 0.1
-
-
-def outcomes(study: Study, setups: int) -> pd.DataFrame:
-    """A campaign in which each further 1,000 iterations halve the errors."""
-    rng, rows = np.random.default_rng(46), []
-    for setup in range(setups):
-        for replicate in range(2 if setup < study.campaign.replicated else 1):
-            for number, (name, variant) in enumerate(variants(study).items()):
-                for iterations in (*variant.lengths, *variant.until_reached):
-                    log = np.log(0.05) + 0.1 * number - iterations / 1500
-                    own = np.random.default_rng([setup, number]).normal(size=2)
-                    shares = np.exp(log + BETWEEN * own + LUCK * rng.normal(size=2))
-                    row = {"setup": setup, "replicate": replicate, "variant": name}
-                    row |= {"iterations": iterations, "settled": int(setup != 4)}
-                    row |= dict(zip([f"{kind}_share" for kind in KINDS], shares, strict=True))
-                    rows.append(row)
-    return pd.DataFrame(rows)
 
 
 def summary(study: Study) -> pd.DataFrame:
@@ -94,9 +76,9 @@ def project(tmp_path_factory) -> Callable[[Study, int], Path]:
         )
         summary(study).to_csv(results / "summary.csv", index=False)
         if setups:
-            outcomes(study, setups).to_csv(
-                folder / "workflow" / "campaign" / "outcomes.csv", index=False
-            )
+            few = study.campaign.model_copy(update={"setups": setups})
+            table = outcomes(study.model_copy(update={"campaign": few}))
+            table.to_csv(folder / "workflow" / "campaign" / "outcomes.csv", index=False)
         (results / "claims.json").write_bytes(written(judge(evidence)))
         return folder
 

@@ -136,15 +136,6 @@ def test_a_study_of_ones_own_has_a_page_of_its_claims_without_the_campaign(proje
     assert "results/studies/mine/pages/findings.md" in (tmp_path / OUTCOME).read_text()
 
 
-def test_pages_link_to_pages_and_figures_that_are_there(complete):
-    known = {*(path.name for path in (ROOT / "docs").glob("*.md")), *pages_of(complete.study)}
-    known |= {f"{path.stem}.png" for path in FIGURES} | {"CITATION.cff", "CONTRIBUTING.md"}
-    known |= {"arm.webp", "guidance.md", "real_arm.md", "reference.md"}
-    for page in ("README.md", "index.md", "findings.md", "choices.md", "deviations.md"):
-        links = re.findall(r"\]\(([^)#:]+)[^)]*\)", render(page, complete))
-        assert links and {Path(link).name for link in links} <= known
-
-
 def test_choices_are_those_of_the_configuration_with_their_reasons(complete):
     page = render("choices.md", complete)
     factors = yaml.safe_load((ROOT / "config.yaml").read_text())["campaign"]["factors"]

@@ -157,14 +157,14 @@ def disturbed(table: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def small() -> Study:
     """The shipped study with fewer seeds, setups and poses."""
     changes = {"training": {"seeds": 3}, "campaign": {"setups": 20}}
     return read_study(ROOT / "config.yaml", changes)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def project(small, tmp_path_factory) -> Callable[..., Path]:
     """Makes a folder of results of the small study."""
 
@@ -185,12 +185,12 @@ def write_in(path: Path, table: pd.DataFrame) -> None:
     write(path, table)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def evidence(small, project) -> Evidence:
     return Evidence(small, project())
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def figures(evidence):
     """All, drawn and laid out."""
     found = {}

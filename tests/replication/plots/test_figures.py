@@ -24,6 +24,7 @@ def files(folder):
     return [folder / f"{its.file}.{suffix}" for its in Figure for suffix in ("svg", "png")]
 
 
+@pytest.mark.slow  # all figures are drawn twice, to SVG and PNG
 def test_noise_in_the_last_digits_changes_no_byte(small, project, tmp_path, monkeypatch):
     drawn = []
     for number, change in enumerate((lambda table: table, disturbed)):
@@ -122,17 +123,6 @@ def test_every_claim_that_setups_decide_by_errors_is_shown(small):
     assert isinstance(estimands["figure-1"], Remaining)
 
 
-def test_the_mapping_shows_the_assignment_that_is_used(figures, evidence):
-    initial, coupling, propagation, _ = figures[Figure.MAPPING].axes
-    used, published = (its.get_offsets() for its in initial.collections[1:])
-    assert used.tolist() == published.tolist() == [[8.3, 4.7]]
-    robots = evidence.levels()["robot"].iloc[: evidence.study.campaign.setups]
-    assert [its.get_text() for its in coupling.get_yticklabels()] == [
-        name.upper() for name in robots.unique()
-    ]
-    assert propagation.lines[0].get_ydata().tolist() == pytest.approx([0.002, 0.02, 0.2])
-
-
 def test_the_benchmark_shows_two_scenarios(figures, evidence):
     figure, table = figures[Figure.BENCHMARK], evidence.table("benchmark.csv")
     assert [axes.get_title(loc="left") for axes in figure.axes] == [
@@ -166,14 +156,6 @@ def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_pa
     quick = other.model_copy(update={"experiments": plan})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
     assert figures_of(quick) == [its.file for its in trained]
-
-
-def test_captions_have_the_numbers_of_the_study(small):
-    for its in Figure:
-        assert "{" not in its.caption(small) and its.title.endswith(".")
-    assert "3 seeds" in Figure.FIGURE_1.caption(small)
-    assert [its.number for its in Figure] == [*range(1, 10)]
-    assert {its.value for its in Figure} == {*drawing.FUNCTIONS}
 
 
 def test_rounding_keeps_plain_numbers_and_moves_nothing_that_is_seen():

@@ -3,12 +3,11 @@
 import re
 from functools import cache
 from io import StringIO
-from itertools import combinations, pairwise
+from itertools import combinations
 from unittest import mock
 
 import numpy as np
 import pytest
-from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.colors import to_rgb
 from matplotlib.text import Text
 
@@ -16,7 +15,8 @@ from replication.plots.figures import Figure
 from replication.plots.palette import BOTH, FAILS, HOLDS, SHORTER, STYLES, UNKNOWN
 from replication.plots.steps import STEPS
 from replication.plots.style import plt
-from tests.replication.recording.test_colours import FEWEST, SEEN, ciede2000, lab, linear
+from tests.replication.recording import test_colours
+from tests.replication.recording.test_colours import SEEN, apart, lab, linear
 
 PHONE, LEAST = 360, 9  # pixels: as wide as a phone; the height of letters
 ARTICLE, SMALLEST = 15 / 2.54, 7  # inches wide; points
@@ -58,38 +58,6 @@ def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
         assert inside and box.y1 <= figure.bbox.y1 + 1, text
 
 
-def traced(corners: np.ndarray) -> np.ndarray:
-    """Points (n, 2) on the way from corner to corner, a pixel or less apart."""
-    pieces = [np.linspace(*way, 2 + int(np.ptp(way, axis=0).max())) for way in pairwise(corners)]
-    return np.concatenate([corners, *pieces])
-
-
-def inked(axes) -> np.ndarray:
-    """Pixels (n, 2) of lines, bars and signs of the data."""
-    found = [np.empty((0, 2))]
-    for line in axes.lines:
-        corners = line.get_transform().transform(line.get_xydata())
-        found.append(traced(corners[np.isfinite(corners).all(axis=1)]))
-    for its in axes.collections:
-        if isinstance(its, LineCollection):
-            found += [traced(its.get_transform().transform(part)) for part in its.get_segments()]
-        elif isinstance(its, PathCollection) and not its.get_rasterized():
-            found.append(its.get_offset_transform().transform(its.get_offsets()))
-    points = np.concatenate(found)
-    box = axes.get_window_extent()
-    return points[((points >= box.min) & (points <= box.max)).all(axis=1)]
-
-
-@EVERY
-def test_no_words_stand_on_data(figures, name):
-    for axes in figures[name].axes:
-        points = inked(axes)
-        for text in set(texts(figures[name])) & set(axes.texts):
-            box = Text.get_window_extent(text).padded(-2)  # without the arrow of an annotation
-            on = (points > box.min) & (points < box.max)
-            assert not on.all(axis=1).any(), text.get_text()
-
-
 def test_legends_hide_no_data(figures):
     for figure in figures.values():
         for axes in figure.axes:
@@ -121,5 +89,4 @@ def test_colours_of_a_figure_differ_to_everyone(colours, seen):
             color: lab(SEEN[seen] @ linear(255 * np.array(to_rgb(color)))) for color in used & meant
         }
         shades["paper"] = lab(np.ones(3))
-        for one, other in combinations(shades, 2):
-            assert ciede2000(shades[one], shades[other]) >= FEWEST, (name, one, other)
+        assert apart(shades) >= test_colours.LEAST, name

@@ -139,30 +139,6 @@ def rgba(colour) -> int:
     return (red << 24) + (green << 16) + (blue << 8) + 255
 
 
-def test_no_word_covers_the_arm_the_workspace_or_another_word(columns, robot, goals):
-    """When the recording opens, in a window as wide as it is high or wider."""
-    _, reached = columns("/improved/reached", "LineStrips3D:strips")
-    first = drawn_poses(reached[0], AXIS * unit_of(robot.workspace))
-    sight = sight_of(robot.workspace, (first - goals)[:, :3, 3])
-    words = [
-        *columns("/legend", "Points3D:positions")[1][0],
-        *columns("/improved/target/caption", "Points3D:positions")[1][0],
-    ]
-    places = in_picture(sight, np.array(words))
-    bones = np.reshape(columns("/improved/nominal/bones", "LineStrips3D:strips")[1], (-1, 8, 3))
-    along = np.linspace(0, 1, 9)[:, None, None, None]
-    arm = bones[:, :-1] + along * np.diff(bones, axis=1)
-    inside = np.stack(np.meshgrid(*[np.linspace(-1, 1, 9)] * 3), axis=-1)
-    box = robot.workspace.centre[:3, 3] + robot.workspace.half_ranges[:3] * inside
-    shown = in_picture(sight, np.concatenate([arm.reshape(-1, 3), box.reshape(-1, 3)]))
-    words_high, words_wide = 0.12, 0.2  # half of their width: a fifth of half the picture
-    for aside, above in places[:-1]:
-        covered = (np.abs(shown[:, 0] - aside) < words_wide) & (shown[:, 1] < above)
-        assert not (covered & (shown[:, 1] > above - words_high)).any()
-    assert shown[:, 1].max() < places[-1, 1] - words_high, "the caption is above all"
-    assert np.abs(np.diff(places[:-1, 1])).min() > 0.1
-
-
 def test_measurements_scatter_about_the_landings_and_are_enlarged_to_be_visible(columns, robot):
     """Noise of 0.2 mm along each axis would not be seen: it is drawn 100 times as large."""
     _, lines = columns("/improved/measured", "LineStrips3D:strips")

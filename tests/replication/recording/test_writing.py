@@ -1,6 +1,5 @@
 """A recording is written whole or not at all, and is that of a training of the study."""
 
-import shutil
 import subprocess
 
 import pandas as pd
@@ -100,24 +99,3 @@ def test_one_of_todays_learners_is_recorded_in_the_own_scenario_alone(files):
 
 def entities(recording) -> set[str]:
     return {chunk.entity_path for chunk in RrdReader(recording).store().stream().to_chunks()}
-
-
-def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(small, robot, tmp_path):
-    folder = robot.urdf.parents[1]
-    urdf = tmp_path / "my_arm" / "urdf" / "arm.urdf"
-    urdf.parent.mkdir(parents=True)
-    package = f"example-robot-data/robots/{folder.name}/"
-    urdf.write_text(robot.urdf.read_text().replace(package, "my_arm/"))
-    shutil.copytree(folder / "meshes", tmp_path / "my_arm" / "meshes")
-    own = small.robots[small.robot].model_copy(update={"urdf": str(urdf)})
-    plan = small.experiments.model_copy(
-        update={"learners": {"ritter": small.experiments.learners["ritter"]}}
-    )
-    study = small.model_copy(
-        update={"robots": small.robots | {small.robot: own}, "experiments": plan}
-    )
-    its = trained(study, tmp_path)
-    record(study, *its)
-    found = entities(its.recordings[1])
-    assert "/errors/position_error_cm/ritter" in found
-    assert not any("improved" in entity for entity in found)

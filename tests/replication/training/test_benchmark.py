@@ -1,8 +1,5 @@
-import numpy as np
 import pandas as pd
-import pytest
 
-from recalib.loop.interfaces import Outcome
 from replication.training.benchmark import Timed, compete, measured_at
 
 
@@ -46,23 +43,3 @@ def test_its_time_is_shared_by_all_moves_of_all_runs(study, monkeypatch):
     monkeypatch.setattr(Timed, "learn", learn)
     table = compete(of(study, scenarios=("links",), longer=()), "affine", [])
     assert set(table["seconds_per_move"]) == {4 * 6.0 / (2 * 4)}
-
-
-def test_only_the_time_of_the_learner_is_taken():
-    class Slow:
-        def command(self, desired):
-            return desired
-
-        def learn(self, desired, execute, fraction):
-            execute(desired[:, None])
-
-    clock = iter(
-        [0.0, 1.0, 11.0, 13.0]
-    )  # learning from 0 to 13 s, of which the robot moves from 1 to 11 s
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("replication.training.benchmark.time.perf_counter", lambda: next(clock))
-        timed = Timed(Slow())
-        timed.learn(
-            np.zeros((1, 6)), lambda commands: Outcome(commands, np.ones((1, 1), bool)), 0.0
-        )
-    assert timed.seconds == 3.0

@@ -1,6 +1,5 @@
 """What settings are chosen by, no result is measured on: neither by a slip nor in any job."""
 
-import ast
 from collections import defaultdict
 
 import numpy as np
@@ -15,7 +14,6 @@ from replication.training.plan import Place, places
 from replication.training.poses import ResultPoses, SearchPoses, Stream, train_for_results
 from replication.training.scenarios import write_scenarios
 from replication.training.search import Tuning
-from tests.conftest import ROOT
 from tests.replication.conftest import settings_of
 
 WORDS = {"number": 1, "setup": 0, "replicate": 0, "widths": "wide"}
@@ -60,17 +58,6 @@ def test_a_stream_is_of_a_search_or_of_results_by_its_name(stream):
 def test_results_cannot_take_the_name_of_a_search():
     with pytest.raises(ValueError, match="SCENARIO: 'search 1 in setup 0, replicate 0' is the"):
         Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario=for_a_search().name)
-
-
-def test_nobody_trains_past_the_types():
-    found = {
-        path.stem
-        for path in (ROOT / "replication").rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.ImportFrom) and node.module == "recalib.loop.training"
-        if "train" in {its.name for its in node.names}
-    }
-    assert found == {"poses"}
 
 
 @pytest.fixture(scope="module")

@@ -178,15 +178,6 @@ def test_a_table_in_another_frame_is_refused(table, ur5, description, tmp_path):
         read_of(ur5.arm, path, description)
 
 
-@pytest.mark.parametrize("learner", peers())
-def test_one_pose_or_equal_ones_spoil_nothing(learner, recording, ur5):
-    unknown = recording[100:]
-    before = remaining_errors("uncorrected", ur5, recording, unknown).mean()
-    for rows in ([0], [0] * 20):
-        left = remaining_errors(learner, ur5, recording[rows], unknown)
-        assert left.mean() < 1.5 * before
-
-
 @pytest.mark.parametrize("digest", ["0" * 64, "f" * 64])
 def test_another_table_than_the_one_that_is_meant_is_refused(digest, study, tmp_path):
     given = tmp_path / "given.csv"

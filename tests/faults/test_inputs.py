@@ -16,8 +16,6 @@ from recalib.laboratory.command_line import REFUSED, main
 from tests.conftest import ROOT
 from tests.laboratory.conftest import ARM
 
-pytestmark = pytest.mark.slow  # each in a process of its own
-
 SECONDS, BYTES = 10, 1e9
 MEMORY = "memory"
 END = "</robot>"
@@ -64,7 +62,7 @@ WRONG = {
         lambda path: path.write_text(f"{HEAD}<!--{60_000_000 * 'x'}-->{END}"),
         "it has 60 MB; expected: at most 16 MB",
     ),
-    "deep XML": ("arm.urdf", HEAD + deep("a") + END, "is no URDF that Pinocchio can read"),
+    "deep XML": ("arm.urdf", HEAD + deep("a") + END, "is not a URDF that Pinocchio can read"),
     "a place far away": (
         "arm.urdf",
         ARM.replace("0.05 0 0.1", "1e308 0 0.1"),
@@ -138,7 +136,7 @@ def told(tmp_path_factory):
     folder = tmp_path_factory.mktemp("inputs")
     for number, (name, make, _) in enumerate(WRONG.values()):
         prepare(folder / str(number), name, make)
-    text = f"from tests.laboratory import test_inputs; test_inputs.all_of_them({str(folder)!r})"
+    text = f"from tests.faults import test_inputs; test_inputs.all_of_them({str(folder)!r})"
     ran = subprocess.run(
         [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, timeout=600
     )

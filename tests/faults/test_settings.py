@@ -28,8 +28,6 @@ from replication.training.settings import Space
 from replication.training.tuned import rules_of, trained
 from tests.conftest import ROOT
 
-pytestmark = pytest.mark.slow  # thousands of settings take a minute
-
 SHIPPED = ROOT / "config.yaml"
 TREE = from_file(SHIPPED).plain()
 WRONG = None, True, "", "nonsense", [], [[]], {"a": 1}
