@@ -49,7 +49,7 @@ PAGE, FIGURE = ROOT / "docs" / "live_paper.md", ROOT / "figures" / "live_paper.p
 SEEDS, TESTS, NOISE = 5, 200, Noise(2e-4, np.radians(0.02))  # m, rad
 MAPS, TODAY = ("improved", "ritter"), ("geometric", "hybrid")
 ITERATIONS = {MAPS: range(0, 201, 10), TODAY: (0, 5, 10, 20, 30, 50, 100)}
-SHOWN = {MAPS: (0, 50, 200), TODAY: (0, 10, 100)}
+SHOWN = {MAPS: (0, 200), TODAY: (0, 10, 100)}
 BOARD = printable(7, 5, 0.05)
 SOFT = 3.7e3  # N m/rad, softer than joints in industry: so soft an arm droops by 12 mm
 ROUGH = {"friction": 2.0, "play": 3e-4}  # N m, rad
@@ -258,7 +258,7 @@ def _mean_ratio(curves: pd.DataFrame, learner: str) -> float:
 
 def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> dict:
     """What the page says."""
-    tables, ratios = {}, {}
+    tables = {}
     for learners, when in SHOWN.items():
         rows = []
         for learner, condition in product(learners, CONDITIONS):
@@ -270,11 +270,6 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
                 )
                 rows.append([label_of(learner), condition, *cells])
         tables[TITLES[learners]] = {"when": when, "rows": rows}
-        for learner, (condition, its) in product(learners, CONDITIONS.items()):
-            if learner in its.learners and its.gears is not None:
-                own, beside = (_ends(curves, learner, name) for name in (condition, its.beside))
-                name = label_of(learner), condition
-                ratios[name] = [_spread(ratio) for _, ratio in (own / beside).items()]
     bars = {
         condition: [_spread(rows[name]) for name in ("droop", "before", "geometry", "after")]
         for condition, rows in draws.groupby("condition", sort=False)
@@ -286,10 +281,18 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
         "postures": POSTURES,
         "unsure": f"{100 * UNSURE:g}",
         "tables": tables,
-        "ratios": ratios,
+        "paper": _agreement(curves, "physics"),
+        "moved": _agreement(curves, "moved, physics"),
         "bars": bars,
         "droops": dict(zip(droops.condition, droops.droop, strict=True)),
     }
+
+
+def _agreement(curves: pd.DataFrame, condition: str) -> list[str]:
+    """The improved map's last errors, and remaining parts, over those it is compared with."""
+    compared = condition, CONDITIONS[condition].beside
+    own, beside = (_ends(curves, "improved", name) for name in compared)
+    return [_spread(ratio) for _, ratio in (own / beside).items()]
 
 
 def _ends(curves: pd.DataFrame, learner: str, condition: str) -> pd.DataFrame:
