@@ -1,4 +1,4 @@
-"""Whether what is said of an arm holds, tried on simulated arms whose truth is known."""
+"""Sessions of simulated arms whose truth is known, with a fault or without."""
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -9,7 +9,6 @@ from recalib.identification.consensus import identify_by_consensus
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.observations import Observations
-from recalib.identification.validation import BLOCKWISE, validate
 from tests.identification.real import Real
 
 MIDDLE, AROUND = np.radians([20, -65, 100, -40, 95, 10]), 0.8  # rad
@@ -79,13 +78,3 @@ class Session:
         estimate = identify_by_consensus(model, self.observations)
         geometry = Calibration(model, estimate)
         return faults(geometry, self.observations)
-
-    def honesty(self) -> float:
-        """The said error over the true one: on fresh postures, at rest, at any time."""
-        found = validate(self._arm, self.observations, self._frames)
-        fresh = self._postures(300)
-        poses = self._real.poses(fresh, noise=(0, 0))
-        poses[:, :3, 3] += self._moved(self._rng.uniform(0, 1, len(fresh)))
-        said = found.errors(BLOCKWISE, found.chosen)[found.counted, 0].mean()
-        true = distances(found.calibration, Observations(fresh, poses[:, :3, 3])).mean()
-        return float(said / true)

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 
-from recalib.identification.checks.sequence import DRIFT, LAG
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.observations import Observations
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, validate
 from recalib.nominal.arms import load_arm
-from tests.identification.honesty import Session, distances, with_targets
+from tests.identification.honesty import distances, with_targets
 from tests.identification.real import ARMS, Real
 
 pytestmark = pytest.mark.slow
@@ -59,12 +58,3 @@ def test_intervals_hold_where_postures_are_few(ur10):
         assert found.radius > found.mean_error(BLOCKWISE, found.chosen)
         within.append(distances(found.calibration, real.observe(HELD_BACK)) <= found.radius)
     assert 0.9 <= np.mean(within) <= 0.99
-
-
-@pytest.mark.parametrize("positions", [True, False], ids=["positions", "poses"])
-@pytest.mark.parametrize("on_a_path", [True, False], ids=["path", "random"])
-@pytest.mark.parametrize(("kind", "size"), [(LAG, 0.01), (DRIFT, 1e-3)])
-def test_a_fault_of_a_session_is_named_or_errors_are_honest(kind, size, on_a_path, positions, ur10):
-    for seed in (1, 5):
-        session = Session(ur10, seed, kind, size, positions, on_a_path)
-        assert [fault.kind for fault in session.named()][:1] == [kind] or session.honesty() > 0.8

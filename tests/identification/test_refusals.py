@@ -62,7 +62,7 @@ def test_rows_that_are_no_observations(spoil, said, good, model):
         (np.outer(np.arange(30.0), [0.1, 0.2, 0.3]), "the targets lie along a line, so the instr"),
         (
             np.random.default_rng(1).normal(size=(30, 3)),
-            "no place of instrument and target explains the measurements: the best leaves 1207 mm",
+            "no pose of instrument and target fits the measurements: the smallest error is 1207 mm",
         ),
     ],
     ids=["a line", "noise"],

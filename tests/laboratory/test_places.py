@@ -20,7 +20,6 @@ from recalib.identification.validation import HYBRID
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.places import found_places
 from recalib.laboratory.report.folder import files_of
-from recalib.laboratory.report.summary import summary
 from recalib.nominal.arms import load_arm
 from tests.arms import INDUSTRIAL
 from tests.conftest import few_folds
@@ -140,7 +139,3 @@ def test_an_arm_that_is_left_alone_may_have_an_offset_that_nothing_tells(arm, tm
     assert not result.worthwhile and instrument.link == arm.base
     off = np.linalg.norm((instrument.pose - np.linalg.inv(real.base))[:3, 3])
     assert instrument.deviations[0] < 1e-3 < off < 2 * instrument.real_deviations[0]
-
-
-def test_the_summary_says_how_many_postures_there_are(calibrated):
-    assert "60 postures, 120 rows of m.csv" in summary(calibrated[0])

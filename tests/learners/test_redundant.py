@@ -4,13 +4,10 @@ import numpy as np
 import pytest
 
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.damaged.disturbances import Disturbances, Noise, Repeatability
-from recalib.damaged.nongeometric import EccentricGear, Sag
 from recalib.damaged.plant import Plant
 from recalib.errors import UnknownName
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
-from recalib.learners.hybrid import HybridLearner
 from recalib.loop.training import train
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import load_robot
@@ -49,15 +46,6 @@ def left(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
 def test_a_learner_recalibrates_seven_joints(make, iterations, most, controller):
     plant = Plant(controller, apply(controller.robot, DAMAGES))
     assert np.all(left(make(controller), plant, iterations) < most)
-
-
-def test_gears_and_sag_of_seven_joints_are_identified(controller):
-    robot = controller.robot
-    more = EccentricGear("panda_joint7", 0.01), Sag("panda_joint4", 2e-4)
-    disturbances = Disturbances(Noise(1e-5, 1e-5), Repeatability(1e-6))
-    luck = [np.random.default_rng(1)]
-    plant = Plant(controller, apply(robot, [*DAMAGES, *more]), disturbances, luck)
-    assert np.all(left(HybridLearner(controller), plant, 32, runs=1) < 0.01)
 
 
 def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_path):

@@ -7,9 +7,6 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image
 
-from recalib.identification.checks.repeatability import returning
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.linearisation import displacements
 from recalib.vision.boards import printable
 from recalib.vision.detection import (
@@ -178,16 +175,6 @@ def test_pixels_beat_poses(in_hand, returns):
         calibration = draw.calibration(observations)
         errors.append(draw.judge(calibration.forward(draw.fresh))[0])
     assert errors[1] < 0.5 and errors[1] < (0.5 if not returns else 0.9) * errors[0]
-
-
-def test_how_well_an_arm_returns_is_judged_by_the_rows_that_are_to_count():
-    draw = Draw(1, in_hand=False)
-    frames = initial_frames(draw.cell.arm, draw.poses).with_optics(draw.pixels.optics)
-    model, last = ErrorModel(draw.cell.arm, OFFSETS, frames), np.arange(len(draw.joints)) >= 20
-    off = np.radians(np.sin(np.arange(len(last))))[:, None] * last[:, None]
-    spoilt = replace(draw.pixels, joints=draw.joints + off)
-    by_all, *by_some = (returning(model, rows) for rows in (spoilt, spoilt[:20], draw.pixels[:20]))
-    assert np.array_equal(*by_some) and not np.allclose(by_all, by_some[0])
 
 
 def test_the_lens_of_an_arm_is_better_than_that_of_pictures():

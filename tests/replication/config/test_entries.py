@@ -53,11 +53,6 @@ def test_a_shift_of_the_base_may_say_both():
     assert ENTRY.validate_python(describe(BaseShift())) == BaseShift()
 
 
-def test_a_damage_is_an_entry_already():
-    damage = Sag("elbow_joint", 0.01)
-    assert ENTRY.validate_python(damage) is damage
-
-
 @given(st.floats(0, 3), st.floats(-3, 3))
 def test_no_digit_is_lost(size, angle):
     for entry in (

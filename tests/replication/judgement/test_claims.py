@@ -7,7 +7,6 @@ import pandas as pd
 import pytest
 
 from replication.campaign.variants import TWO_MAPS, lengths, variants
-from replication.config.switches import IMPROVED, RITTER
 from replication.judgement.claims import claims, judge
 from replication.judgement.claims.claim import OfSetups
 from replication.judgement.evidence import Evidence
@@ -141,7 +140,3 @@ def test_without_results_nothing_is_judged(study, tmp_path):
     assert judge(Evidence(study, tmp_path)) == ()
     other = study.model_copy(update={"name": "mine"})
     assert judge(Evidence(other, tmp_path)) == ()
-
-
-def test_improved_is_the_system_that_the_paper_proposes(study):
-    assert variants(study)[IMPROVED].improved and not variants(study)[RITTER].improved
