@@ -24,7 +24,7 @@ def read_file(path: str | os.PathLike[str], most: int) -> bytes:
         mode = os.stat(path).st_mode
         if stat.S_IFMT(mode) not in (stat.S_IFREG, stat.S_IFDIR):
             kind = "pipe" if stat.S_ISFIFO(mode) else "device"
-            raise InvalidFile(path, f"it is a {kind}; expected: a file, which has an end")
+            raise InvalidFile(path, f"it is a {kind}; expected: a regular file")
         with open(path, "rb") as stream:
             content = stream.read(most + 1)
             size = max(os.fstat(stream.fileno()).st_size, len(content))

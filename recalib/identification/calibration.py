@@ -139,9 +139,9 @@ class Calibration:
         doubted = int(np.sum(estimate.weights < DOUBTFUL))
         return "\n".join(
             [
-                f"observations: {len(estimate.weights)}, of which {doubted} are doubted",
+                f"observations: {len(estimate.weights)}, {doubted} of them outliers",
                 f"noise along an axis: {', '.join(noise)}",
-                f"residuals: noise{' and a pattern, which is predicted' if self.pattern else ''}",
+                f"residuals: noise{' and a Gaussian process' if self.pattern else ''}",
                 f"converged: {'yes' if estimate.converged else 'no'}",
                 "",
                 table_of(self.parameters.values()),

@@ -62,7 +62,7 @@ def initial_frames(
     """
     if len(observations) < fewest(observations):
         raise NoInitialEstimate(
-            "where instrument and target are cannot be estimated from"
+            "instrument and target cannot be located from"
             f" {counted(len(observations), 'row')}; expected: at least {fewest(observations)}"
         )
     check_rows(observations)
@@ -88,9 +88,9 @@ def initial_frames(
     error = median_error(best, tool, observations)
     if not error <= FARTHEST:
         raise NoInitialEstimate(
-            "no place of instrument and target explains the measurements: the best leaves"
-            f" {1e3 * error:.0f} mm; expected: up to {1e3 * FARTHEST:.0f} mm, from an arm as its"
-            " description has it, with the same joints, signs, zeros and units"
+            "no pose of instrument and target fits the measurements: the smallest error is"
+            f" {1e3 * error:.0f} mm; expected: up to {1e3 * FARTHEST:.0f} mm, with the arm's"
+            " joints, signs, zeros and units"
         )
     return best
 

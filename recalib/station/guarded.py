@@ -86,7 +86,7 @@ class Guarded:
         if off.max() > REACHED:
             joint = self._arm.joints[int(off.argmax())]
             raise StationFailed(
-                f"after a move, {joint} stands {off.max():.3g} rad or m from where it was sent"
+                f"after a move, {joint} is {off.max():.3g} rad or m from its command"
             )
 
     def measure(self) -> tuple[np.ndarray, Mapping[str, float | str] | None]:

@@ -55,7 +55,7 @@ class BoardInPictures:
             return None
         off = reprojection(board, lens, found, board_pose(board, lens, found))
         if not (typical := float(np.median(np.linalg.norm(off, axis=1)))) < WRONG:
-            reason = f"by the lens that was given, its corners are off by {typical:.3g} px"
+            reason = f"its corners deviate from the given lens by {typical:.3g} px"
             raise InvalidFile(path, f"{reason}; is it this camera's?")
         corners = good_corners(board, lens, found)
         return self.add(path, corners) if len(corners.numbers) >= FEWEST else None

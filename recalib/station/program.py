@@ -103,7 +103,7 @@ class ProgramStation:
         if not isinstance(answer, dict):
             raise StationFailed(
                 f"{self._name} answered {line.strip()[:SHOWN]!r} to {do!r}; expected: a JSON object"
-                " in a line. What is for people belongs on stderr"
+                " in a line. Messages for people belong on stderr"
             )
         if "error" in answer:
             raise StationFailed(f"{self._name}: {answer['error']}")

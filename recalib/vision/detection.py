@@ -105,7 +105,7 @@ def _problem(board: Board, markers: np.ndarray, ids: np.ndarray) -> str | None:
         return f"it shows {len(ids)} markers of the board; expected: at least {FEWEST_MARKERS}"
     if len(np.unique(ids)) < len(ids):
         twice = next(number for number in ids if (ids == number).sum() > 1)
-        return f"marker {twice} is there more than once: a second board, or two exposures"
+        return f"marker {twice} appears more than once: a second board, or two exposures"
     if ids.max() >= board.markers:
         return f"marker {ids.max()} is not on the board: this is another one"
     places = np.array(board.drawn.getObjPoints())[ids, :, :2]

@@ -88,7 +88,7 @@ def read_lens(path: str | PathLike[str]) -> Lens:
         raise InvalidFile(path, f"{' and '.join(sides)} are not numbers of pixels")
     width, height = size.astype(int).tolist()
     if len(matrix) != 9 or not np.isfinite(matrix).all():
-        raise InvalidFile(path, f"{MATRICES[0]} has no 9 numbers")
+        raise InvalidFile(path, f"{MATRICES[0]} needs 9 numbers")
     fx, _, cx, _, fy, cy, *_ = matrix
     if not np.array_equal(matrix, [fx, 0, cx, 0, fy, cy, 0, 0, 1]):
         raise InvalidFile(
@@ -105,7 +105,7 @@ def read_lens(path: str | PathLike[str]) -> Lens:
     counts = (4, 5) if model == "plumb_bob" else (MODELS[model],)
     if len(distortion) not in counts or not np.isfinite(distortion).all():
         valid = " or ".join(map(str, counts))
-        raise InvalidFile(path, f"{DISTORTIONS[0]} has no {valid} numbers, as {model} needs")
+        raise InvalidFile(path, f"{DISTORTIONS[0]} needs {valid} numbers for {model}")
     if model != FISHEYE:
         count = next(n for n in (4, 5, 8) if not distortion[n:].any())
         distortion = distortion[:count]

@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from recalib.identification.calibration import Calibration
+from recalib import JOINT_WAVES, OFFSETS, Calibration
 from recalib.identification.estimation import Identification
-from recalib.identification.model.error_model import JOINT_WAVES, OFFSETS, ErrorModel
+from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import Frames
 from recalib.identification.parameters import parameters_of
 
@@ -41,7 +41,7 @@ def test_what_is_held_at_nominal_is_no_parameter(calibration):
 
 def test_a_summary_lists_what_is_clearly_not_zero_and_counts_the_rest(calibration):
     text = calibration.summary()
-    assert "observations: 3, of which 1 are doubted\nnoise along an axis: 0.2 mm\n" in text
+    assert "observations: 3, 1 of them outliers\nnoise along an axis: 0.2 mm\n" in text
     rows = text.partition("std err\n")[2].splitlines()
     assert [row.split() for row in rows[:-1]] == [
         ["shift", "x", "of", "base", "4.0000", "0.1000", "mm"],

@@ -5,14 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from recalib.errors import RecalibError
-from recalib.identification.calibration import Calibration
+from recalib import OFFSETS, Calibration, Observations, RecalibError, initial_frames
 from recalib.identification.checks.diagnostics import check_estimate, check_postures
 from recalib.identification.checks.postures import find_postures
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
-from recalib.identification.model.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
 from tests.arms import RAILED
 from tests.identification.real import Real
 
@@ -73,7 +70,7 @@ def test_positions_that_place_no_instrument(measured, said, good, ur10):
 
 
 def test_two_rows(good, ur10):
-    with pytest.raises(RecalibError, match="cannot be estimated from 2 rows; expected: at least 3"):
+    with pytest.raises(RecalibError, match="cannot be located from 2 rows; expected: at least 3"):
         initial_frames(ur10, good[:2])
 
 
@@ -95,7 +92,7 @@ def test_nine_postures():
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"converged": False}, "the geometry was still changing when its identification was stop"),
+        ({"converged": False}, "the identification of the geometry did not converge"),
         (
             {"noise": np.array([0.02, 0.1])},  # m, rad
             "the best fit are 20.0 mm and 5.7 deg along each .*; expected: up to 5 mm and 2 deg",

@@ -8,7 +8,7 @@ import pytest
 import yaml
 from pypdf import PdfReader
 
-from recalib.errors import InvalidFile
+from recalib import InvalidFile
 from recalib.vision.boards import Board, printable, read_board
 from recalib.vision.detection import Unusable, find_corners
 from recalib.vision.lenses import read_lens
@@ -96,22 +96,22 @@ def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
     ("change", "said"),
     [
         ("plumb_bob|thin_prism", "distortion_model is 'thin_prism'; expected: one of plumb_bob"),
-        ("plumb_bob|equidistant", "has no 4 numbers, as equidistant needs"),
-        ("1105, 0,|.nan, 0,", "camera_matrix has no 9 numbers"),
+        ("plumb_bob|equidistant", "needs 4 numbers for equidistant"),
+        ("1105, 0,|.nan, 0,", "camera_matrix needs 9 numbers"),
         ("1105, 0,|-1105, 0,", "its focal lengths are -1105 and 1102; expected: 64 to 64000 px"),
         ("1105, 0,|4.2, 0,", "its focal lengths are 4.2 and 1102; expected: 64 to 64000 px"),
         ("1105, 0,|1105, 3,", "expected: fx 0 cx 0 fy cy 0 0 1"),
         ("0, 0, 1]|0, 0, 2]", "expected: fx 0 cx 0 fy cy 0 0 1"),
-        ("image_width|width_of", "image_width and image_height are no numbers"),
-        ("image_width: 1280|image_width: wide", "image_width and image_height are no numbers"),
-        ("image_width: 1280|image_width: 0", "image_width and image_height are no numbers"),
-        ("distortion_coefficients|distortions", "no 4 or 5 numbers"),
-        ("camera_matrix|matrix", "camera_matrix has no 9 numbers"),
-        ("image_width: 1280|image_width: 1280.5", "image_width and image_height are no numbers"),
-        ("-0.21|.nan", "no 4 or 5 numbers"),
+        ("image_width|width_of", "image_width and image_height are not numbers"),
+        ("image_width: 1280|image_width: wide", "image_width and image_height are not numbers"),
+        ("image_width: 1280|image_width: 0", "image_width and image_height are not numbers"),
+        ("distortion_coefficients|distortions", "needs 4 or 5 numbers"),
+        ("camera_matrix|matrix", "camera_matrix needs 9 numbers"),
+        ("image_width: 1280|image_width: 1280.5", "image_width and image_height are not numbers"),
+        ("-0.21|.nan", "needs 4 or 5 numbers"),
         ("distortion_model: plumb_bob|distortion_model: [a]", "distortion_model is ['a']"),
-        ("[1105|[[1105", "it is no YAML"),
-        pytest.param("[1105|" + 10_000 * "[", "it is no YAML", id="deep"),
+        ("[1105|[[1105", "it is not a YAML"),
+        pytest.param("[1105|" + 10_000 * "[", "it is not a YAML", id="deep"),
     ],
 )
 def test_a_lens_that_is_none_is_refused(change, said, tmp_path):

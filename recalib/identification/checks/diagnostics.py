@@ -37,8 +37,8 @@ def check_postures(postures: Postures) -> Postures:
     if len(postures) < FEWEST:
         raise Untrustworthy(
             f"there are {len(postures.numbers)} rows of {len(postures)}"
-            f" posture{'s' * (len(postures) != 1)}; expected: at least {FEWEST} postures, all over"
-            " the joints' ranges"
+            f" posture{'s' * (len(postures) != 1)}; expected: at least {FEWEST} postures, spread"
+            " over the joints' ranges"
         )
     return postures
 
@@ -48,8 +48,8 @@ def check_estimate(geometry: Calibration, observations: Observations) -> None:
     noise = geometry.estimate.noise
     if not geometry.estimate.converged:
         raise Untrustworthy(
-            "the geometry was still changing when its identification was stopped, with a noise of"
-            f" {1e3 * noise[0]:.2g} mm; try: more rows, in postures less alike"
+            "the identification of the geometry did not converge, with a noise of"
+            f" {1e3 * noise[0]:.2g} mm; try: more rows, in more diverse postures"
         )
     if (noise > NOISIEST[: len(noise)]).any():
         found = [f"{1e3 * noise[0]:.1f} mm", *(f"{np.degrees(turn):.1f} deg" for turn in noise[1:])]
@@ -77,7 +77,7 @@ def check_links(geometry: Calibration) -> None:
         names = ", or other names of sockets" if geometry.model.frames.sockets.size else ""
         ends = " and ".join(nominal.joints[worst : worst + 2])
         raise Untrustworthy(
-            f"the measurements make the link between {ends}"
-            f" {1e3 * found[worst]:.0f} mm long; expected: about {1e3 * right[worst]:.0f} mm, as"
-            f" the arm's description has it; try: other units or another URDF{names}"
+            f"the link between {ends} is {1e3 * found[worst]:.0f} mm long by the measurements;"
+            f" expected: about {1e3 * right[worst]:.0f} mm, as in the URDF; try: other units or"
+            f" another URDF{names}"
         )
