@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from recalib.nominal.robots import Robot, load_robot
+from recalib import Robot, load_robot
 
 PANDA = [f"panda_joint{index}" for index in range(1, 8)]
 

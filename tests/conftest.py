@@ -19,14 +19,19 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
+from recalib import (
+    Arm,
+    Controller,
+    DamagedArm,
+    EncoderShift,
+    LinkShortening,
+    Robot,
+    Rules,
+    Schedule,
+    apply,
+    load_arm,
+)
 from recalib.learners.kinds import class_of
-from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
-from recalib.nominal.arms import load_arm
-from recalib.nominal.controller import Controller
-from recalib.nominal.kinematics import Arm
-from recalib.nominal.robots import Robot
 from replication.config.reading import read_study
 from replication.config.study import Study
 from replication.scenarios.nominal import Nominal, nominal

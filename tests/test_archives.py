@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidFile
+from recalib import InvalidFile
 from recalib.files.archives import flat, read_archive, write_archive
 
 KIND = "an archive", 1

@@ -9,14 +9,10 @@ from pathlib import Path
 import numpy as np
 from numba import config
 
-from recalib.learners.hierarchical import HierarchicalLearner
+from recalib import IMPROVED, Chain, HierarchicalLearner, Outcome, Schedule, Workspace, load_arm
 from recalib.learners.kernels import WAITING
-from recalib.learners.rules import IMPROVED
-from recalib.learners.schedules import Schedule
-from recalib.loop.interfaces import Outcome
-from recalib.nominal.arms import load_arm
-from recalib.nominal.chain import TOLERANCE, Chain
-from recalib.nominal.poses import COORDINATES, Workspace
+from recalib.nominal.chain import TOLERANCE
+from recalib.nominal.poses import COORDINATES
 from recalib.numerics.compiled import compiled
 
 ROOT = Path(__file__).parents[1]

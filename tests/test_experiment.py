@@ -2,11 +2,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.plant import Plant
-from recalib.errors import InvalidSetting
-from recalib.loop.interfaces import Outcome
-from recalib.loop.training import SUMMARIES, corrected, train
-from recalib.nominal.poses import position_error
+from recalib import InvalidSetting, Outcome, Plant, corrected, position_error, train
+from recalib.loop.training import SUMMARIES
 from tests.learners.test_hierarchical import improved
 
 

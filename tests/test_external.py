@@ -1,10 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.learners.polynomial import PolynomialLearner
-from recalib.loop.external import ExternalRobot
-from recalib.loop.training import train
-from recalib.nominal.poses import Workspace
+from recalib import ExternalRobot, PolynomialLearner, Workspace, train
 
 CENTRE = np.diag([1.0, -1.0, -1.0, 1.0])
 WORKSPACE = Workspace(CENTRE, np.array([0.2, 0.2, 0.2, 0.3, 0.3, 0.3]))

@@ -11,19 +11,27 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from recalib.damaged.damage import apply
-from recalib.damaged.nongeometric import EccentricGear
-from recalib.damaged.plant import Plant
-from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, RecalibError, UnknownName
-from recalib.learners.hierarchical import HierarchicalLearner
+from recalib import (
+    Arm,
+    EccentricGear,
+    HierarchicalLearner,
+    InvalidFile,
+    InvalidSetting,
+    OtherRobot,
+    Outcome,
+    Plant,
+    PolynomialLearner,
+    RecalibError,
+    Rules,
+    Schedule,
+    UncorrectedLearner,
+    UnknownName,
+    apply,
+    load,
+    save,
+)
 from recalib.learners.kinds import KINDS
-from recalib.learners.learned import VERSION, join, load, read, save
-from recalib.learners.polynomial import PolynomialLearner
-from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
-from recalib.learners.uncorrected import UncorrectedLearner
-from recalib.loop.interfaces import Outcome
-from recalib.nominal.kinematics import Arm
+from recalib.learners.learned import VERSION, join, read
 from tests.spoiling import spoil
 
 RUNS = 2

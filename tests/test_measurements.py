@@ -5,16 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from recalib.errors import BadMeasurement
+from recalib import OFFSETS, BadMeasurement, ExternalRobot, Observations, Outcome, position_error
 from recalib.identification.calibration import calibrate
 from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
-from recalib.identification.model.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
 from recalib.learners.kinds import KINDS
-from recalib.loop.external import ExternalRobot
-from recalib.loop.interfaces import Outcome
 from recalib.loop.moves import check_moves
-from recalib.nominal.poses import position_error
 
 RUNS = 2
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 6))

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recalib.errors import InvalidQuantity
+from recalib import InvalidQuantity
 from recalib.files.quantities import ANGLE, COMPLIANCE, LENGTH
 
 

@@ -8,8 +8,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 from simulated_arm import PhysicsStation
 
-from recalib.damaged.plant import Plant
-from recalib.nominal.poses import position_error
+from recalib import Plant, position_error
 from replication.training.poses import Stream
 from tests.bars.paper_live import CONDITIONS, FIGURE, NOISY, scenario, study, tuned
 

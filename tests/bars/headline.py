@@ -11,11 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
+from recalib import Observations, load_arm
 from recalib.identification.closed_forms import solutions
-from recalib.identification.model.observations import Observations
 from recalib.identification.validation import BLOCKWISE
 from recalib.laboratory.calibrate import calibrate_arm
-from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
 from tests.vision.rendering import Cell, frame
 from tests.vision.sessions import write_views

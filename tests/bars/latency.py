@@ -13,16 +13,12 @@ from collections.abc import Callable
 
 import numpy as np
 
+from recalib import Arm, Correction, Description, Observations, initial_frames
 from recalib.identification.calibration import calibrate
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.observations import Observations
 from recalib.identification.validation import CANDIDATES
-from recalib.laboratory.correction import Correction
 from recalib.laboratory.live.allowed import AllowedPostures
 from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.live.running import RunningCalibration
-from recalib.laboratory.tables.description import Description
-from recalib.nominal.kinematics import Arm
 from tests.bars.live import FINE, GEARS
 from tests.bars.stations import Seeing
 from tests.identification.real import ARMS, Real

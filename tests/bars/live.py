@@ -19,18 +19,21 @@ import numpy as np
 import pinocchio as pin
 from simulated_arm import Gears, PhysicsStation
 
-from recalib.damaged.damage import DamagedArm
-from recalib.damaged.disturbances import Disturbances, Noise
+from recalib import (
+    Arm,
+    DamagedArm,
+    Description,
+    Disturbances,
+    Noise,
+    Observations,
+    Station,
+    load_arm,
+)
 from recalib.identification.closed_forms import solutions
-from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.allowed import AllowedPostures
 from recalib.laboratory.live.record import Pictures, Record
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import LiveSettings, calibrate_live
-from recalib.laboratory.tables.description import Description
-from recalib.nominal.arms import load_arm
-from recalib.nominal.kinematics import Arm
-from recalib.station.interface import Station
 from tests.bars.stations import Seeing
 from tests.identification.real import ARMS, Real
 from tests.station.simulated import HOMES, Simulated

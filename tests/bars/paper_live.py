@@ -20,16 +20,22 @@ import pandas as pd
 from simulated_arm import Gears, PhysicsStation
 from simulated_camera import UPWARDS, PicturedStation
 
-from recalib.damaged.damage import DamagedArm
-from recalib.damaged.disturbances import Disturbances, Noise
-from recalib.damaged.plant import Plant
+from recalib import (
+    JOINT_ERRORS,
+    OFFSETS,
+    Controller,
+    DamagedArm,
+    Disturbances,
+    History,
+    Noise,
+    Observations,
+    Plant,
+    load_arm,
+    position_error,
+    train,
+)
 from recalib.identification.calibration import calibrate
-from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
-from recalib.identification.model.observations import Observations
-from recalib.loop.training import History, train
-from recalib.nominal.arms import load_arm
-from recalib.nominal.controller import Controller
-from recalib.nominal.poses import position_error
+from recalib.identification.model.error_model import ErrorModel
 from recalib.vision.boards import printable
 from recalib.vision.detection import find_corners
 from recalib.vision.views import board_pose

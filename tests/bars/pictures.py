@@ -9,15 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration
+from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.checks.repeatability import weigh
 from recalib.identification.closed_forms import solutions
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.linearisation import displacements
-from recalib.identification.model.observations import Observations
 from recalib.laboratory.places import found_places
 from recalib.vision.detection import Corners, find_corners
 from recalib.vision.lens_search import find_lens

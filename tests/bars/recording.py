@@ -10,8 +10,7 @@ from collections.abc import Sequence
 
 from simulated_arm import PhysicsStation
 
-from recalib.damaged.plant import Plant
-from recalib.nominal.controller import Controller
+from recalib import Controller, Plant
 from recalib.numerics.randomness import generator
 from replication.recording.recorded import published_errors
 from replication.recording.writing import watch_all, write_recording

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.bending import LinkBend, LinkTwist
-from recalib.damaged.damage import apply
-from recalib.errors import InvalidSetting, UnknownName
-from recalib.nominal.robots import link_end, load_robot
+from recalib import InvalidSetting, LinkBend, LinkTwist, UnknownName, apply, load_robot
+from recalib.nominal.robots import link_end
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_3_link"]  # across two axes; along x; the tool
 

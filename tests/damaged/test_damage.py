@@ -2,11 +2,18 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.bending import LinkBend
-from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
+from recalib import (
+    Backlash,
+    BaseShift,
+    EccentricGear,
+    EncoderShift,
+    InvalidSetting,
+    LinkBend,
+    LinkShortening,
+    UnknownName,
+    apply,
+)
 from recalib.damaged.imperfections import Imperfection
-from recalib.damaged.nongeometric import Backlash, EccentricGear
-from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.robots import link_end
 
 ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))

@@ -2,12 +2,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.disturbances import Disturbances, Noise, Outliers, Repeatability
-from recalib.damaged.plant import Plant
-from recalib.errors import InvalidSetting
-from recalib.nominal.controller import Controller
-from recalib.nominal.poses import orientation_error
-from recalib.nominal.robots import load_robot
+from recalib import (
+    Controller,
+    Disturbances,
+    InvalidSetting,
+    Noise,
+    Outliers,
+    Plant,
+    Repeatability,
+    load_robot,
+    orientation_error,
+)
 from tests.arms import RAILED
 
 

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import EncoderShift, apply
-from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
+from recalib import Backlash, EccentricGear, EncoderShift, Sag, apply
 
 SHOULDER = "shoulder_lift_joint"
 

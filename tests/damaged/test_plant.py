@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import BaseShift, apply
-from recalib.damaged.plant import Plant
+from recalib import BaseShift, Plant, apply
 
 
 @pytest.fixture

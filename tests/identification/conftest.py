@@ -2,7 +2,7 @@
 
 import pytest
 
-from recalib.nominal.arms import load_arm
+from recalib import load_arm
 from tests.identification.real import ARMS
 
 

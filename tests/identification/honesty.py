@@ -3,12 +3,10 @@
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from recalib.identification.calibration import Calibration
+from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, Fault, faults
 from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
-from recalib.identification.model.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
 from tests.identification.real import Real
 
 MIDDLE, AROUND = np.radians([20, -65, 100, -40, 95, 10]), 0.8  # rad

@@ -5,12 +5,10 @@ from collections.abc import Callable
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.calibration import Calibration
+from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import nearest_rotation
-from recalib.identification.model.observations import Observations
 
 ARMS = {"UR10": ("ur10_robot.urdf", "tool0"), "Panda": ("panda.urdf", "panda_link8")}
 NOISE = 2e-4, np.radians(0.02)  # m, rad

@@ -1,12 +1,10 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import apply
-from recalib.damaged.nongeometric import EccentricGear
+from recalib import JOINT_ERRORS, OFFSETS, Calibration, EccentricGear, Observations, apply
 from recalib.identification import calibration as module
-from recalib.identification.calibration import Calibration, calibrate
-from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, held
-from recalib.identification.model.observations import Observations
+from recalib.identification.calibration import calibrate
+from recalib.identification.model.error_model import held
 from recalib.learners.geometric import angles_for
 from tests.identification.test_estimation import postures
 

@@ -3,11 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from recalib.identification.calibration import Calibration
-from recalib.identification.design import information_gains, most_informative
+from recalib import OFFSETS, Calibration, Observations, information_gains
+from recalib.identification.design import most_informative
 from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
-from recalib.identification.model.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
 from tests.identification.test_estimation import postures
 
 

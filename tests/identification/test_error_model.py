@@ -2,13 +2,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.damage import BaseShift, EncoderShift, apply
-from recalib.damaged.nongeometric import EccentricGear
-from recalib.identification.model.error_model import (
-    JOINT_ERRORS,
-    JOINT_WAVES,
-    ErrorModel,
-)
+from recalib import JOINT_ERRORS, JOINT_WAVES, BaseShift, EccentricGear, EncoderShift, apply
+from recalib.identification.model.error_model import ErrorModel
 from replication.scenarios.plants import nominal_robot
 from tests.arms import RAILED
 

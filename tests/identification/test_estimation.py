@@ -3,12 +3,18 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.disturbances import Disturbances, Noise
+from recalib import (
+    JOINT_ERRORS,
+    OFFSETS,
+    Disturbances,
+    Noise,
+    Observations,
+    orientation_error,
+    position_error,
+)
 from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
+from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.linearisation import displacements
-from recalib.identification.model.observations import Observations
-from recalib.nominal.poses import orientation_error, position_error
 from tests import reference
 
 NOISY = Disturbances(Noise(2e-4, np.radians(0.02)))

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from recalib import Observations
 from recalib.identification.checks.gains import wrong_gain
-from recalib.identification.model.observations import Observations
 from tests.identification.honesty import AROUND, MIDDLE
 from tests.identification.real import Real, geometry_of
 

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.observations import Observations
+from recalib import Observations, initial_frames, load_arm
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, validate
-from recalib.nominal.arms import load_arm
 from tests.identification.honesty import distances, with_targets
 from tests.identification.real import ARMS, Real
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from recalib import Distance, Observations
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
-from recalib.identification.model.observations import Distance, Observations
 from tests.arms import INDUSTRIAL, RAILED
 from tests.identification.real import Real, geometry_of
 

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import BadMeasurement
+from recalib import OFFSETS, BadMeasurement, Observations, initial_frames, load_arm
 from recalib.identification.closed_forms import OPEN, _smallest, turns_by_poses
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import _is_open, initial_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
-from recalib.identification.model.observations import Observations
-from recalib.nominal.arms import load_arm
+from recalib.identification.initial_estimate import _is_open
+from recalib.identification.model.error_model import ErrorModel
 from tests.arms import GANTRY, SCARA
 from tests.identification.real import ARMS, Real, geometry_of
 

@@ -5,13 +5,11 @@ from functools import partial
 import numpy as np
 import pytest
 
+from recalib import JOINT_ERRORS, OFFSETS, Distance, Observations, Row, arm_of_table, initial_frames
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.error_model import JOINT_ERRORS, NO_ERRORS, OFFSETS, ErrorModel
+from recalib.identification.model.error_model import NO_ERRORS, ErrorModel
 from recalib.identification.model.frames import HELD
-from recalib.identification.model.observations import Distance, Observations
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, validate
-from recalib.nominal.denavit_hartenberg import Row, arm_of_table
 from tests.arms import GANTRY, SCARA, urdf
 from tests.identification.real import Real, aligned, geometry_of
 

@@ -6,10 +6,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from recalib.identification.calibration import Calibration
+from recalib import OFFSETS, Calibration
 from recalib.identification.checks.diagnostics import Untrustworthy, check_links
 from recalib.identification.checks.link_lengths import link_lengths
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.error_model import ErrorModel
 from tests.arms import RAILED, SCARA
 
 

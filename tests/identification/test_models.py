@@ -3,13 +3,22 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import apply
-from recalib.damaged.disturbances import Disturbances, Noise
-from recalib.damaged.nongeometric import EccentricGear, Sag
-from recalib.identification.calibration import Calibration, calibrate
-from recalib.identification.model.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
-from recalib.identification.model.observations import Observations
-from recalib.nominal.poses import orientation_error, position_error
+from recalib import (
+    JOINT_ERRORS,
+    JOINT_WAVES,
+    OFFSETS,
+    Calibration,
+    Disturbances,
+    EccentricGear,
+    Noise,
+    Observations,
+    Sag,
+    apply,
+    orientation_error,
+    position_error,
+)
+from recalib.identification.calibration import calibrate
+from recalib.identification.model.error_model import ErrorModel
 from tests.identification.test_estimation import noisy, postures
 
 EXACT = Disturbances(Noise(1e-5, 1e-4))

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from recalib import Observations, initial_frames
 from recalib.identification.checks.scales import scales
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.observations import Observations
 from tests.arms import urdf
 from tests.identification.real import Real
 

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from recalib import OFFSETS, Observations
 from recalib.identification.calibration import calibrate
 from recalib.identification.checks.sequence import DRIFT, GROWTH, JUMP, LAG, faults
-from recalib.identification.model.error_model import OFFSETS
 from recalib.identification.model.frames import Frames
-from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 from tests.conftest import few_folds
 from tests.identification.honesty import AROUND, MIDDLE, ROWS, Session, with_targets

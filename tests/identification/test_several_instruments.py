@@ -5,16 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from recalib.errors import BadMeasurement
-from recalib.identification.calibration import Calibration, calibrate
+from recalib import OFFSETS, Arm, BadMeasurement, Calibration, Observations, initial_frames
+from recalib.identification.calibration import calibrate
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames, joined_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.initial_estimate import joined_frames
+from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.linearisation import displacements
-from recalib.identification.model.observations import Observations
 from recalib.identification.parameters import parameters_of
-from recalib.nominal.kinematics import Arm
 from tests.identification.real import Real, anywhere
 
 SIGHTS = np.array([[0, 0], [1, 0], [1, 1]])

@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-from recalib.identification.calibration import Calibration
+from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
-from recalib.identification.model.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.unseen import Unseen
 from tests.arms import urdf
 from tests.identification.real import Real

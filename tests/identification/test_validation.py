@@ -3,13 +3,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from recalib import Observations, initial_frames
 from recalib.identification import validation as module
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.postures import find_postures
 from recalib.identification.held_out import FOLDS, HeldOut, blocks, random_folds
-from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.frames import Frames
-from recalib.identification.model.observations import Observations
 from recalib.identification.validation import (
     GEOMETRIC,
     HYBRID,

@@ -5,9 +5,8 @@ import csv
 import numpy as np
 import pytest
 
+from recalib import Chain, load_arm
 from recalib.laboratory.command_line import DONE, main
-from recalib.nominal.arms import load_arm
-from recalib.nominal.chain import Chain
 from tests.arms import urdf
 
 NOISE = 5e-5  # m

@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.errors import RecalibError
+from recalib import EncoderShift, LinkShortening, RecalibError, apply
 from recalib.laboratory.calibrate import calibrate
 from tests.laboratory.conftest import postures
 

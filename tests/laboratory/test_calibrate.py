@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidFile, InvalidSetting
+from recalib import InvalidFile, InvalidSetting
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.plausibility.knowledge import WrongKnowledge

@@ -10,16 +10,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile, RecalibError
+from recalib import (
+    JOINT_ERRORS,
+    OFFSETS,
+    Correction,
+    InvalidFile,
+    NotReached,
+    Observations,
+    RecalibError,
+    load_arm,
+    load_correction,
+    position_error,
+)
 from recalib.files.archives import write_archive
 from recalib.identification.calibration import calibrate
-from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.model.frames import Frames
-from recalib.identification.model.observations import Observations
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.correction import Correction, NotReached, load_correction
-from recalib.nominal.arms import find_urdf, load_arm
-from recalib.nominal.poses import position_error
+from recalib.nominal.arms import find_urdf
 from tests.arms import SCARA
 from tests.laboratory.conftest import postures
 from tests.spoiling import spoil

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from recalib import load_arm
 from recalib.laboratory.calibrate import calibrate, calibrate_arm
 from recalib.laboratory.command_line import DONE, main
-from recalib.nominal.arms import load_arm
 from tests.arms import urdf
 from tests.laboratory.conftest import read, write
 

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile
+from recalib import InvalidFile, load_correction, read_description
 from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.correction import load_correction
-from recalib.laboratory.tables.description import read_description
 from tests.laboratory.conftest import NOISE, postures, table, to_instrument, true_positions, write
 
 ROWS = 40

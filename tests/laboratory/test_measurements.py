@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile
-from recalib.laboratory.tables.description import Description, read_description
+from recalib import Description, InvalidFile, load_arm, read_description
 from recalib.laboratory.tables.measurements import read_desired, read_measurements
-from recalib.nominal.arms import load_arm
 from tests.arms import urdf
 from tests.laboratory.conftest import write as write_columns
 

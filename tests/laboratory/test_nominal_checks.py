@@ -3,11 +3,10 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.initial_estimate import NoInitialEstimate, initial_frames
-from recalib.identification.model.observations import Observations
+from recalib import Observations, initial_frames, load_arm
+from recalib.identification.initial_estimate import NoInitialEstimate
 from recalib.laboratory.plausibility.knowledge import checked_frames, mistake_in
 from recalib.laboratory.plausibility.mistakes import WrongNominal, check_nominal, likely_mistake
-from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
 
 TOOL_POINT = pin.SE3(np.eye(3), np.array([0.0, 0.02, 0.12])).homogeneous  # m

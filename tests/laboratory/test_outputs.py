@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from recalib.errors import InvalidFile
+from recalib import InvalidFile
 from recalib.files.outputs import write_new
 from recalib.laboratory import commands
 from recalib.laboratory.calibrate import calibrate_arm

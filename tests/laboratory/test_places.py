@@ -8,19 +8,16 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from recalib import OFFSETS, Calibration, Observations, initial_frames, load_arm
 from recalib.files.outputs import write_new
-from recalib.identification.calibration import Calibration
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.linearisation import displacements
-from recalib.identification.model.observations import Observations
 from recalib.identification.validation import HYBRID
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.places import found_places
 from recalib.laboratory.report.folder import files_of
-from recalib.nominal.arms import load_arm
 from tests.arms import INDUSTRIAL
 from tests.conftest import few_folds
 from tests.identification.real import ARMS, Real

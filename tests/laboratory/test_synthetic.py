@@ -9,15 +9,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile
+from recalib import InvalidFile, load_arm, load_correction
 from recalib.laboratory.calibrate import calibrate, calibrate_arm
-from recalib.laboratory.correction import load_correction
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report import folder as report
 from recalib.laboratory.report.recording import recording_of
 from recalib.laboratory.report.summary import errors_table
-from recalib.nominal.arms import load_arm
 from tests.arms import urdf
 from tests.identification.real import Real
 from tests.laboratory.conftest import in_degrees, in_millimetres, write

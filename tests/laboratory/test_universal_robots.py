@@ -3,8 +3,8 @@ import pinocchio as pin
 import pytest
 import yaml
 
+from recalib import load_arm
 from recalib.laboratory.urdf.universal_robots import LINKS, kinematics_yaml
-from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
 from tests.laboratory.test_urdf import postures, random_calibration
 

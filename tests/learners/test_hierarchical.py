@@ -3,12 +3,16 @@ from itertools import product
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidSetting, RecalibError
-from recalib.learners.hierarchical import HierarchicalLearner
+from recalib import (
+    IMPROVED,
+    HierarchicalLearner,
+    InvalidSetting,
+    Outcome,
+    RecalibError,
+    Rules,
+    Schedule,
+)
 from recalib.learners.nets import regular_grid
-from recalib.learners.rules import IMPROVED, Rules
-from recalib.learners.schedules import Schedule
-from recalib.loop.interfaces import Outcome
 from tests.reference import SlowMap, cycle
 
 SINGLE_WIDTHS = {"pose": (0.5, 0.8)}

@@ -1,10 +1,8 @@
 import numpy as np
 import pytest
 
-from recalib.errors import UnknownName
+from recalib import Outcome, PolynomialLearner, UnknownName
 from recalib.learners.kinds import KINDS, class_of, kind_of
-from recalib.learners.polynomial import PolynomialLearner
-from recalib.loop.interfaces import Outcome
 
 
 def test_a_learner_is_of_the_kind_of_its_own_class():

@@ -5,10 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from recalib import GaussianProcessLearner, GeometricLearner, HybridLearner
 from recalib.learners.experience import is_due
-from recalib.learners.gaussian_process import GaussianProcessLearner
-from recalib.learners.geometric import GeometricLearner
-from recalib.learners.hybrid import HybridLearner
 from recalib.numerics.regression import Process
 
 MOVES = 10

@@ -4,10 +4,10 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from recalib import Rules
 from recalib.learners import kernels
 from recalib.learners.kernels import JACOBIAN, THETA, WAITING
 from recalib.learners.maps import Maps
-from recalib.learners.rules import Rules
 
 RUNS = 3
 

@@ -3,12 +3,7 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import apply
-from recalib.damaged.nongeometric import EccentricGear
-from recalib.damaged.plant import Plant
-from recalib.errors import InvalidSetting
-from recalib.learners.polynomial import PolynomialLearner
-from recalib.loop.interfaces import Outcome
+from recalib import EccentricGear, InvalidSetting, Outcome, Plant, PolynomialLearner, apply
 from recalib.loop.training import measure
 from replication.training.competitors import UNCORRECTED, make_peer, peers
 

@@ -5,7 +5,7 @@ from itertools import combinations_with_replacement
 import numpy as np
 import pytest
 
-from recalib.learners.polynomial import PolynomialLearner
+from recalib import PolynomialLearner
 
 # Deviations of the coefficients of each degree, and of what no polynomial says; in half-ranges
 PRIOR, NOISE = (0.3, 0.1, 0.03), 0.003

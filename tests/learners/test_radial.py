@@ -3,11 +3,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from recalib.errors import BadMeasurement
-from recalib.learners.radial import RadialLearner
-from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
-from recalib.loop.interfaces import Outcome
+from recalib import BadMeasurement, Outcome, RadialLearner, Rules, Schedule
 from tests.learners.test_hierarchical import SIZES, WIDTHS, fallen, strange_world
 
 START, RATES, FIELD = 1.5, (0.9, 0.3), 0.4

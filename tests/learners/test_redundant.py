@@ -3,14 +3,18 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.damaged.plant import Plant
-from recalib.errors import UnknownName
-from recalib.learners.gaussian_process import GaussianProcessLearner
-from recalib.learners.geometric import GeometricLearner
-from recalib.loop.training import train
-from recalib.nominal.controller import Controller
-from recalib.nominal.robots import load_robot
+from recalib import (
+    Controller,
+    EncoderShift,
+    GaussianProcessLearner,
+    GeometricLearner,
+    LinkShortening,
+    Plant,
+    UnknownName,
+    apply,
+    load_robot,
+    train,
+)
 from tests.arms import RAILED, panda
 from tests.learners.test_hierarchical import improved
 

@@ -5,8 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.nominal.arms import load_arm
+from recalib import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot, load_arm
 from recalib.nominal.descriptions import UrdfFile, find_urdf
 from tests.arms import GANTRY, SCARA, urdf
 

@@ -9,11 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from recalib.damaged.damage import BaseShift, LinkShortening, apply
-from recalib.errors import InvalidSetting
-from recalib.nominal.arms import load_arm
-from recalib.nominal.chain import Chain
-from recalib.nominal.kinematics import Arm
+from recalib import Arm, BaseShift, Chain, InvalidSetting, LinkShortening, apply, load_arm
 from replication.scenarios.plants import nominal_robot
 
 POSTURES = arrays(float, (3, 8), elements=st.floats(-np.pi, np.pi))  # of so many joints or fewer

@@ -3,10 +3,14 @@ from itertools import product
 import numpy as np
 import pytest
 
-from recalib.errors import UnfitWorkspace, Unreachable
-from recalib.nominal.chain import Chain
-from recalib.nominal.controller import Controller
-from recalib.nominal.poses import orientation_error, position_error
+from recalib import (
+    Chain,
+    Controller,
+    UnfitWorkspace,
+    Unreachable,
+    orientation_error,
+    position_error,
+)
 from replication.scenarios.plants import nominal_controller
 from tests.arms import panda
 from tests.conftest import changed

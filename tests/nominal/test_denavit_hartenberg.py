@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recalib.errors import InvalidSetting, UnknownName
-from recalib.nominal.denavit_hartenberg import Row, arm_of_table
+from recalib import InvalidSetting, Row, UnknownName, arm_of_table
 from replication.scenarios.plants import nominal_robot
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from recalib.nominal.arms import load_arm
+from recalib import load_arm
 from recalib.nominal.kinematics import tool_frame
 
 ARMS = {

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from recalib.nominal.arms import load_arm
-from recalib.nominal.chain import TOLERANCE, Chain
+from recalib import Chain, load_arm
+from recalib.nominal.chain import TOLERANCE
 from recalib.nominal.newton import LONGEST_STEP, solve_groups
 
 # Tools, and postures away from where these arms are singular.

@@ -7,14 +7,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidSetting, UnknownName
-from recalib.nominal.poses import (
-    COORDINATES,
-    Workspace,
-    orientation_error,
-    pose_errors,
-    position_error,
-)
+from recalib import InvalidSetting, UnknownName, Workspace, orientation_error, position_error
+from recalib.nominal.poses import COORDINATES, pose_errors
 
 CENTRE = np.eye(4)
 CENTRE[:3, :3] = Rotation.from_euler("xyz", [2.0, -0.7, 1.1]).as_matrix()

@@ -1,9 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.nominal.arms import load_arm
-from recalib.nominal.robots import load_robot
+from recalib import InvalidSetting, UnknownName, UnsuitableRobot, load_arm, load_robot
 from replication.scenarios.plants import nominal_robot
 from tests.arms import SCARA
 from tests.conftest import changed

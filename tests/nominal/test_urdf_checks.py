@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from recalib.errors import RecalibError, UnsuitableRobot
+from recalib import RecalibError, UnsuitableRobot
 from recalib.laboratory.urdf.origins import corrected_urdf
 from recalib.nominal.arms import arm_of
 from tests.arms import RAILED, urdf

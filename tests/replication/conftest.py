@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.damage import EncoderShift, LinkShortening
+from recalib import EncoderShift, LinkShortening
 from replication.config.study import Study
 from replication.scenarios.plants import Resolved
 from replication.training.settings import Space

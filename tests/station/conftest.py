@@ -8,11 +8,10 @@ import pytest
 import rerun as rr
 from watched import LiveView
 
-from recalib.identification.model.observations import Observations
+from recalib import Observations, load_shapes
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import Answer, Ended, LiveSettings, Move, calibrate_live
 from recalib.nominal.descriptions import find_urdf
-from recalib.nominal.shapes import load_shapes
 from tests.station.simulated import Simulated
 
 WAITS = {"APART": 0.0002, "SETTLING": 0.02, "PATIENCE": 0.3}  # s

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.nominal.arms import load_arm
-from recalib.nominal.kinematics import Arm
+from recalib import Arm, load_arm
 from recalib.station.interface import cells_of
 from tests.identification.real import ARMS, NOISE, Real
 

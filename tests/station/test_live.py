@@ -11,17 +11,21 @@ from functools import partial
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidFile, InvalidSetting, UnknownName
-from recalib.identification.model.observations import Observations
+from recalib import (
+    Description,
+    InvalidFile,
+    InvalidSetting,
+    NotReached,
+    Observations,
+    StationFailed,
+    UnknownName,
+)
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.correction import NotReached
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import Answer, Interrupted, LiveSettings, calibrate_live
-from recalib.laboratory.tables.description import Description
 from recalib.station.guarded import Guarded
-from recalib.station.interface import StationFailed
 from tests.conftest import few_folds
 from tests.identification.real import anywhere
 from tests.logged import logged
@@ -211,7 +215,7 @@ STOPPED = {  # by what is said, what a station does
     "for 0.3 s the station has not answered when asked to move": {
         "moved": lambda station: time.sleep(1)
     },
-    "after a move, elbow_joint stands 0.05 rad or m from where it was sent": {
+    "after a move, elbow_joint is 0.05 rad or m from its command": {
         "moved": lambda station: station.shift(0, 0, 0.05, 0, 0, 0)
     },
     "0.02 s after it should stand, the arm still moves its tool by .* mm; expected: at most 0.1": {

@@ -7,11 +7,9 @@ import sys
 import numpy as np
 import pytest
 
+from recalib import Observations, load_arm, load_correction
 from recalib.identification.closed_forms import solutions
-from recalib.identification.model.observations import Observations
-from recalib.laboratory.correction import load_correction
 from recalib.laboratory.tables.table import read_table
-from recalib.nominal.arms import load_arm
 from tests.conftest import ROOT
 
 PAGE = ROOT / "docs" / "panda_in_an_hour.md"

@@ -3,10 +3,7 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
-from recalib.nominal.arms import load_arm
-from recalib.nominal.robots import load_robot
-from recalib.station.interface import Station
+from recalib import DamagedArm, EncoderShift, LinkShortening, Station, apply, load_arm, load_robot
 
 pytest.importorskip("mujoco", reason="of the extra live")
 import simulated_arm as physics

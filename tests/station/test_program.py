@@ -9,13 +9,10 @@ import time
 import numpy as np
 import pytest
 
+from recalib import ProgramStation, StationFailed, load_arm, load_correction
 from recalib.laboratory.command_line import DONE, main
-from recalib.laboratory.correction import load_correction
 from recalib.laboratory.live.session import Answer, LiveSettings, calibrate_live
-from recalib.nominal.arms import load_arm
-from recalib.station.interface import StationFailed
 from recalib.station.opening import open_station
-from recalib.station.program import ProgramStation
 from tests.conftest import ROOT, few_folds
 
 DESCRIBED = {"joints": ["a", "b"], "lower": [-1, -1], "upper": [1, 1]}
@@ -74,7 +71,7 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
     ("answer", "says"),
     [
         ("[INFO] measuring", "answered '.INFO. measuring' to 'measure'; expected: a JSON object"),
-        ("[1, 2]", "expected: a JSON object in a line. What is for people belongs on stderr"),
+        ("[1, 2]", "expected: a JSON object in a line. Messages for people belong on stderr"),
         ("[" * 100_000, "expected: a JSON object"),
         ('{"error": "no tracker on port 3"}', "python.*: no tracker on port 3"),
         ("{}", "answered 'measure' without 'row'"),

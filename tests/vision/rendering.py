@@ -6,7 +6,7 @@ from functools import cached_property
 import cv2
 import numpy as np
 
-from recalib.nominal.arms import load_arm
+from recalib import load_arm
 from recalib.vision.boards import Board, printable
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens

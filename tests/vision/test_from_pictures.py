@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import RecalibError
+from recalib import RecalibError, load_arm
 from recalib.identification.validation import WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
@@ -23,7 +23,6 @@ from recalib.laboratory.pictures.sessions import Cell as Cameras
 from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.summary import verdict
-from recalib.nominal.arms import load_arm
 from recalib.vision.detection import Corners, find_corners
 from recalib.vision.lenses import read_lens
 from tests.bars.pictures import Draw

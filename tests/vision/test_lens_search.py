@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from recalib import load_arm
 from recalib.laboratory.pictures.sessions import Cell as Cameras
 from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import verdict
-from recalib.nominal.arms import load_arm
 from recalib.vision import lens_search
 from recalib.vision.boards import printable
 from recalib.vision.detection import Corners, are_on_a_line, find_corners

@@ -7,12 +7,10 @@ import cv2
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidFile
-from recalib.identification.model.observations import Observations
+from recalib import Description, InvalidFile, Observations
 from recalib.laboratory.live.record import Record
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import SOON
-from recalib.laboratory.tables.description import Description
 from recalib.station.pictures import BoardInPictures, PicturesOfABoard
 from tests.bars.live import FINER, pictured
 from tests.vision.rendering import Cell

@@ -10,7 +10,7 @@ from shutil import copytree
 import numpy as np
 import pytest
 
-from recalib.errors import RecalibError
+from recalib import RecalibError
 from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures.sessions import calibrate_pictures

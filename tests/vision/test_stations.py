@@ -5,9 +5,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import RecalibError
+from recalib import RecalibError, StationFailed
 from recalib.laboratory.command_line import REFUSED, main
-from recalib.station.interface import StationFailed
 from recalib.station.pictures import BoardInPictures, PicturesOfABoard
 from recalib.vision.detection import Corners
 from tests.vision.rendering import Cell

@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from recalib.errors import RecalibError
+from recalib import RecalibError
 from recalib.files.storage import whole
 from replication.running.alone import MARK, NOTES, check_known, check_writable, hold
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from recalib.errors import RecalibError
+from recalib import RecalibError
 from replication.config.messages import InvalidConfiguration
 from replication.running.studies import LOCK, ship, study_of
 

@@ -5,7 +5,7 @@ import subprocess
 import pandas as pd
 import pytest
 
-from recalib.learners.learned import load
+from recalib import load
 from replication.scenarios.plants import Resolved
 from tests.conftest import ROOT
 from tests.project import Project

@@ -8,10 +8,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from recalib.damaged.bending import LinkBend, LinkTwist
-from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
-from recalib.damaged.disturbances import Noise, Outliers, Repeatability
-from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
+from recalib import (
+    Backlash,
+    BaseShift,
+    EccentricGear,
+    EncoderShift,
+    LinkBend,
+    LinkShortening,
+    LinkTwist,
+    Noise,
+    Outliers,
+    Repeatability,
+    Sag,
+)
 from replication.config.damages import Assigned, Entry, describe
 
 ENTRY = TypeAdapter(Entry)

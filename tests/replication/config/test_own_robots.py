@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import yaml
 
-from recalib.nominal.arms import load_arm
+from recalib import load_arm
 from replication.config.messages import InvalidConfiguration
 from replication.running.studies import study_of
 from tests.conftest import ROOT

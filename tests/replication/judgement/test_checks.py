@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from scipy.stats import t as student
 
-from recalib.errors import RecalibError
+from recalib import RecalibError
 from replication.judgement.checks import BAND, check, expect, propose, report
 from replication.judgement.summary import cells_of_mean, summarise
 from replication.running.outputs import write

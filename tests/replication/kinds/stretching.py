@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.damaged.damage import Damage, DamagedArm, end_of
+from recalib import DamagedArm, Robot
+from recalib.damaged.damage import Damage, end_of
 from recalib.damaged.imperfections import Link
 from recalib.files.bounded import Amount
-from recalib.nominal.robots import Robot
 
 
 @dataclass(frozen=True)

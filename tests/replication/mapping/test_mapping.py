@@ -2,8 +2,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
-from recalib.damaged.plant import Plant
+from recalib import BaseShift, EncoderShift, LinkShortening, Plant, apply
 from replication.judgement.claims.section_5 import integral_ratios
 from replication.mapping.coupling import coupling
 from replication.mapping.propagation import (

@@ -8,9 +8,7 @@ import pandas as pd
 import pytest
 from rerun.chunk import RrdReader
 
-from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
-from recalib.damaged.disturbances import Noise
-from recalib.damaged.nongeometric import Sag
+from recalib import BaseShift, EncoderShift, LinkShortening, Noise, Sag
 from replication.config.study import Study
 from replication.recording.phases import CLOCK
 from replication.recording.recorded import recorded_learners, recorded_places

@@ -13,13 +13,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.damaged.plant import Plant
-from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.learners.rules import IMPROVED
-from recalib.learners.schedules import Schedule
-from recalib.loop.training import train
-from recalib.nominal.controller import Controller
+from recalib import (
+    IMPROVED,
+    Controller,
+    EncoderShift,
+    HierarchicalLearner,
+    LinkShortening,
+    Plant,
+    Schedule,
+    apply,
+    train,
+)
 from recalib.nominal.poses import pose_errors
 from replication.recording.in_browser import script
 from replication.recording.recorded import typical_seed

@@ -5,8 +5,7 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.damage import apply
-from recalib.nominal.poses import position_error
+from recalib import apply, position_error
 from replication.config.damages import damages_among
 from replication.recording import colours
 from replication.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, move

@@ -7,10 +7,8 @@ import pytest
 import rerun as rr
 from rerun.chunk import RrdReader
 
-from recalib.damaged.damage import LinkShortening
-from recalib.errors import InvalidFile
+from recalib import InvalidFile, LinkShortening, PolynomialLearner
 from recalib.laboratory.viewer.process import PROGRAM, quiet
-from recalib.learners.polynomial import PolynomialLearner
 from replication.recording.recorded import typical_seed
 from replication.recording.watched import watch
 from replication.recording.writing import check_end, record, write_recording

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import apply
-from recalib.nominal.poses import orientation_error, position_error
+from recalib import apply, orientation_error, position_error
 from recalib.numerics.randomness import generator
 from replication.config.study import PaperDamage, Published
 from replication.scenarios.assignments import Ways, assign, compare

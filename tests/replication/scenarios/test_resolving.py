@@ -4,8 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.damage import EncoderShift, LinkShortening
-from recalib.damaged.disturbances import Noise, Outliers, Repeatability
+from recalib import EncoderShift, LinkShortening, Noise, Outliers, Repeatability
 from replication.judgement.evidence import Evidence, NotMeasured
 from replication.running.outputs import write
 from replication.scenarios.plants import Resolved

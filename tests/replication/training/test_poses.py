@@ -5,7 +5,7 @@ from collections import defaultdict
 import numpy as np
 import pytest
 
-from recalib.loop.training import History
+from recalib import History
 from replication.campaign.own import tune
 from replication.mapping import measured
 from replication.training import benchmark, ensemble, real_arm, train

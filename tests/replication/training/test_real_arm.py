@@ -7,12 +7,19 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.damaged.nongeometric import EccentricGear
-from recalib.errors import InvalidFile, RecalibError
+from recalib import (
+    Description,
+    EccentricGear,
+    EncoderShift,
+    InvalidFile,
+    LinkShortening,
+    RecalibError,
+    Row,
+    apply,
+    arm_of_table,
+    read_description,
+)
 from recalib.laboratory.plausibility.mistakes import WrongNominal
-from recalib.laboratory.tables.description import Description, read_description
-from recalib.nominal.denavit_hartenberg import Row, arm_of_table
 from replication.config.study import Source
 from replication.scenarios.plants import nominal_robot
 from replication.training.competitors import peers

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from recalib.learners.rules import Rules
+from recalib import Rules
 from replication.config.campaign import Ranges, RoughSearch
 from replication.training.poses import SearchPoses, Stream
 from replication.training.search import Tuning, worse

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from recalib.errors import RecalibError
-from recalib.learners.rules import Rules
+from recalib import RecalibError, Rules
 from replication.config.switches import SWITCHES
 from replication.training.settings import Space
 from replication.training.tuned import Tuned, rules_of, trained

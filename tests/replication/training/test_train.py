@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from scipy.stats import qmc
 
-from recalib.learners.learned import load
+from recalib import load
 from recalib.numerics.randomness import generator
 from replication.config.study import Measuring
 from replication.running.outputs import write
