@@ -8,7 +8,7 @@ from recalib.spelling import instead
 
 
 class RecalibError(Exception):
-    """Base class of this library's errors."""
+    """Base class of all exceptions that this library raises."""
 
 
 class UnknownName(RecalibError):

@@ -165,7 +165,7 @@ def test_balls_in_sockets_of_the_wrong_names_are_refused(in_sockets):
         rows[number] = ",".join([*joints, names[name]])
     mixed = in_sockets.with_name("mixed.csv")
     mixed.write_text("\n".join([heading, *rows]))
-    with pytest.raises(Untrustworthy, match="make the link .* mm long; .* other names of sockets"):
+    with pytest.raises(Untrustworthy, match="the link .* mm long by .*; .* other names of sockets"):
         by_ball("", mixed)
 
 
@@ -175,7 +175,7 @@ def test_centimetres_that_say_millimetres_are_refused(arm, folder):
         folder / "small.csv",
         in_degrees(arm, joints) | in_millimetres(0.1 * true_positions(arm, joints)),
     )
-    with pytest.raises(Untrustworthy, match="between lift and elbow 40 mm long; .* 400 mm"):
+    with pytest.raises(Untrustworthy, match="between lift and elbow is 40 mm long by .* 400 mm"):
         calibrate_arm(folder / "arm.urdf", folder / "small.csv")
 
 

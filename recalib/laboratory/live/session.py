@@ -71,7 +71,7 @@ class Interrupted(RecalibError):
 
 
 class Answer(Enum):
-    """A person's answer to a proposed move."""
+    """The answer of a person to a proposed move of the arm."""
 
     MOVE, SKIP, END = "move", "skip the posture for good", "end"
 
