@@ -140,7 +140,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 def _columns() -> str:
     """The columns of a table of measurements, for `recalib calibrate --help`."""
-    lines = (f"  {headings:<46}{meaning}" for headings, meaning in described())
+    lines = (f"  {headings:<48}{meaning}" for headings, meaning in described())
     return "\n".join(["columns of a table of measurements:", *lines, "", ""])
 
 

@@ -93,7 +93,7 @@ FAKE_POSITIONS = Columns(
     "commands of recalib correct, which are ignored",
     "mm",
 )
-FAKE_ROTATIONS = Columns("fake_rotations", _axes("r{}_fake"), ANGLE, "likewise", "deg")
+FAKE_ROTATIONS = Columns("fake_rotations", _axes("r{}_fake"), ANGLE, "as above", "deg")
 
 MEASURED = (
     *(POSITIONS, *ROTATIONS, TARGETS, SOCKETS, PICTURES, TIMES, NOMINAL, ERRORS),
