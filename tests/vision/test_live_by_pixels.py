@@ -112,5 +112,5 @@ def test_a_table_without_pictures_is_none_for_a_camera(begun, tmp_path):
         rows = [row[:-8] + row[-7:] for row in csv.reader(file)]
     with open("table.csv", "w", newline="") as file:
         csv.writer(file).writerows(rows)
-    with pytest.raises(InvalidFile, match="it has no column 'picture'"):
+    with pytest.raises(InvalidFile, match="column 'picture' is missing"):
         read_again(cell)

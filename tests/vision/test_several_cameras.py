@@ -269,7 +269,7 @@ def test_several_tables_and_known_frames_are_refused(in_one_fit, tmp_path, capsy
     left, right = in_one_fit("two fixed")[1]
     table, out = str(right / "measurements.csv"), f"--out={tmp_path / 'out'}"
     assert main(["calibrate", "panda.urdf", str(left), table, "--tool=panda_link8", out]) == REFUSED
-    assert "it is one of 2 tables; expected: one, or the folders" in capsys.readouterr().err
+    assert "it is one of 2 tables; expected: one table, or folders" in capsys.readouterr().err
     (tmp_path / "known.toml").write_text('[target]\nposition = ["0 m", "0 m", "0 m"]\n')
     with pytest.raises(RecalibError, match="an instrument or a target, which is for one camera"):
         calibrate_pictures("panda.urdf", [left, right], tmp_path / "known.toml", "panda_link8")

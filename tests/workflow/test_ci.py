@@ -76,7 +76,7 @@ def test_every_extra_is_locked_with_hashes():
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     locks = [path.read_text(encoding="utf-8") for path in ROOT.glob("requirements*.lock")]
     names = {
-        re.match(r"[\w-]+", its)[0]
+        re.match(r"[\w.-]+", its)[0].replace(".", "-")
         for part in extras["optional-dependencies"].values()
         for its in part
     }
