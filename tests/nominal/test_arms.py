@@ -134,7 +134,7 @@ CIRCLE = """<link name="one"/><link name="two"/>
             "the limits of shoulder are 3.0 to 2.0 in",
         ),
         (SCARA.replace('"-2"', '"${-2}"', 1), [], UnsuitableRobot, "has lower"),
-        ('<robot name="x"><link/><joint type="fixed"/></robot>', [], UnsuitableRobot, "no URDF"),
+        ('<robot name="x"><link/><joint type="fixed"/></robot>', [], UnsuitableRobot, "not a URDF"),
     ],
 )
 def test_what_is_no_such_arm_is_refused_by_name(load, text, links, error, message):
