@@ -56,7 +56,7 @@ def packed(path: Path) -> None:
 # By what is wrong: the file, what makes it or stands in it, and what the sentence says.
 WRONG = {
     "a URDF that is a pipe": ("arm.urdf", pipe, "it is a pipe; expected: a regular file"),
-    "a URDF without an end": ("arm.urdf", endless, "it is a device; expected: a regular file"),
+    "a URDF without an end": ("arm.urdf", endless, "it is a device; expected: a regular"),
     "a comment of 60 MB": (
         "arm.urdf",
         lambda path: path.write_text(f"{HEAD}<!--{60_000_000 * 'x'}-->{END}"),
@@ -88,7 +88,7 @@ WRONG = {
     ),
     "a heading of many columns": ("rows.csv", 15_000_000 * "," + "\n", "it is empty"),
     "a cell of many digits": ("rows.csv", TABLE + 10_000_000 * "1" + ROW, "it is not CSV"),
-    "a description without an end": ("it.toml", endless, "it is a device; expected: a regular file"),
+    "a description without an end": ("it.toml", endless, "it is a device; expected: a regular"),
     "deep TOML": ("it.toml", "a = " + 7_000 * "[" + 7_000 * "]", "nested too deep"),
     "deep keys": ("it.toml", "instrument." + 7_900 * "a." + "a = 1", "nested too deep"),
     "a long description": ("it.toml", 100_000 * "[", "at most 0.016 MB"),
