@@ -27,6 +27,8 @@ FOR_STUDIES = "matplotlib", "pandas", "pydantic", "rerun", "snakemake"
 
 @pytest.mark.parametrize("name", recalib.__all__)
 def test_a_public_name_has_a_home_and_says_what_it_is(name):
+    if name == "calibrate_pictures":
+        pytest.importorskip("cv2", reason="needs OpenCV, of the extra vision")
     value = getattr(recalib, name)
     assert name in dir(recalib)
     if name.isupper():
