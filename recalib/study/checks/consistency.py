@@ -29,18 +29,25 @@ MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 n
 
 def check(study: Study) -> list[Mistake]:
     """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
-    for kind in (_names, _meanings, _halves, _amounts, _evidence):
+    for kind in (_names, _meanings, _amounts, _evidence):
         if found := list(kind(study)):
             return found
     return []
 
 
 def unused(inherited: Iterable[str], study: Study) -> Iterator[Mistake]:
-    """Scenarios that a study adds to those inherited, and that nothing of it uses."""
-    plans = study.experiments.scenarios, study.benchmark.scenarios
-    used = {study.scenario, *(name.partition("-")[0] for names in plans for name in names)}
+    """Scenarios that a study adds to those inherited, and that nothing, or half of it, uses."""
+    shown, compared = (
+        {name.partition("-")[0] for name in plan.scenarios}
+        for plan in (study.experiments, study.benchmark)
+    )
     for name in study.scenarios:
-        if name not in used and name not in inherited:
+        if name in shown or name in inherited:
+            continue
+        if name == study.scenario:  # learners are trained on it, but no figure shows it
+            valid = f"one of experiments.scenarios, which are {listed(sorted(shown), 'and')}"
+            yield unlike(("scenario",), name, valid, ("experiments", "scenarios"))
+        elif name not in compared:
             valid = "scenario, experiments.scenarios or benchmark.scenarios to name it"
             yield Mistake(("scenarios", name), f": nothing uses it; expected: {valid}")
 
@@ -132,14 +139,6 @@ def _meanings(study: Study) -> Iterator[Mistake]:
             path, " is something else; expected: translate, then rotate, for the universes"
         )
     yield from _rungs(study)
-
-
-def _halves(study: Study) -> Iterator[Mistake]:
-    """A scenario on which learners are trained, but which no figure shows."""
-    shown = study.experiments.scenarios
-    if study.scenario not in shown:
-        valid = f"one of experiments.scenarios, which are {listed(shown, 'and') or 'none'}"
-        yield unlike(("scenario",), study.scenario, valid, ("experiments", "scenarios"))
 
 
 def _rungs(study: Study) -> Iterator[Mistake]:
