@@ -57,13 +57,13 @@ def read_picture(path: Path) -> np.ndarray:
             width, height = image.size
     except (OSError, ValueError, Image.DecompressionBombError) as error:
         large = isinstance(error, Image.DecompressionBombError)
-        raise Unusable("it is too large" if large else "it is no picture") from None
+        raise Unusable("it is too large" if large else "it is not a picture") from None
     if min(width, height) < SMALLEST or width * height > LARGEST:
         valid = f"at least {SMALLEST} x {SMALLEST}, and {LARGEST / 1e6:.0f} million in all at most"
         raise Unusable(f"it has {width} x {height} pixels; expected: {valid}")
     picture = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
     if picture is None:
-        raise Unusable("it is no picture")
+        raise Unusable("it is not a picture")
     grey: np.ndarray = picture
     return grey
 

@@ -332,10 +332,10 @@ NO_PICTURES = {  # by name: what is in the file, and why it is refused
     "strip.png": (png(20000, 40), "20000 x 40 pixels; expected, as by the lens: 1280 x"),
     "large.png": (png(12000, 9000, 1), "12000 x 9000 pixels; expected: .* 100 million in all"),
     "huge.png": (png(30000, 30000, 1), "it is too large"),
-    "broken.png": (png(40, 40)[:50], "it is no picture"),
-    "empty.png": (b"", "it is no picture"),
+    "broken.png": (png(40, 40)[:50], "it is not a picture"),
+    "empty.png": (b"", "it is not a picture"),
     "nu\0l.png": (None, "there is no such file"),
-    300 * "x" + ".png": (None, "it is no picture"),
+    300 * "x" + ".png": (None, "it is not a picture"),
     "..": (None, "there is no such file"),
 }
 

@@ -119,7 +119,7 @@ def test_a_picture_that_is_not_what_it_was_is_told_before_anything_moves(begun, 
         cell = replace(cell, lens=replace(cell.lens, size=(1280, 962)))
     else:
         cell = replace(cell, board=replace(cell.board, dictionary="5X5_100"))
-    reason = {"removed": "there is no such file", "empty": "it is no picture"}
+    reason = {"removed": "there is no such file", "empty": "it is not a picture"}
     with pytest.raises(
         InvalidFile, match=rf"\d.png: {reason.get(gone, 'it does not show the board')}"
     ):
