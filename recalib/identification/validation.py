@@ -76,8 +76,7 @@ class Validation:
 
     def judged(self, way: str) -> np.ndarray:
         """Whether errors of rows (n,) count: those of outliers and lost directions do not."""
-        judged = self.counted & ~self.lost[way]
-        return judged if judged.any() else self.counted
+        return _judged(self.counted, self.lost[way], self.held_out[way][NOTHING].folds)
 
     def held_out_by(self, way: str, kind: str) -> HeldOut:
         """The rows whose errors count."""
@@ -169,8 +168,8 @@ def validate(
             for kind, errors in hold_out(without, observations, folds).items()
         }
         lost[way] = _lost(candidates[0].model, observations, folds)
-    judged = counted & ~lost[BLOCKWISE]
-    chosen = _choice(held_out[BLOCKWISE], judged if judged.any() else counted, postures)
+    judged = _judged(counted, lost[BLOCKWISE], held_out[BLOCKWISE][NOTHING].folds)
+    chosen = _choice(held_out[BLOCKWISE], judged, postures)
     full.setdefault(HYBRID, full[GEOMETRIC])  # there was nothing but geometry
     for errors in held_out.values():
         errors.setdefault(HYBRID, errors[GEOMETRIC])
@@ -186,6 +185,12 @@ def _lost(model: ErrorModel, observations: Observations, folds: np.ndarray) -> n
         if Unseen(model, observations[folds != fold]).directions.shape[1] > opened
     ]
     return np.isin(folds, parts)
+
+
+def _judged(counted: np.ndarray, lost: np.ndarray, folds: np.ndarray) -> np.ndarray:
+    """Rows (n,) that count and whose part lost no direction; if hardly any, those that count."""
+    judged = counted & ~lost
+    return judged if len(np.unique(folds[judged])) > 1 else counted
 
 
 def _choice(held_out: Mapping[str, HeldOut], judged: np.ndarray, postures: Postures) -> str:

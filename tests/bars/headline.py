@@ -14,7 +14,7 @@ import numpy as np
 from recalib import Observations, load_arm
 from recalib.identification.closed_forms import solutions
 from recalib.identification.validation import BLOCKWISE
-from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.pictures.sessions import calibrate_pictures
 from tests.identification.real import Real
 from tests.vision.rendering import Cell, frame
 from tests.vision.sessions import write_views
@@ -69,7 +69,7 @@ def draw(name: str, seed: int, in_hand: bool) -> tuple[float, float]:
     views = [cell.view(pose, NOISE) for pose in cell.board_poses(joints)]
     with tempfile.TemporaryDirectory() as folder:
         observed = write_views(Path(folder), cell, joints, views)
-        result = calibrate_arm(ARMS[name][0], observed, tool=ARMS[name][1])
+        result = calibrate_pictures(ARMS[name][0], [observed], tool=ARMS[name][1])
     poses, true = result.calibration.forward(fresh), cell.tool(fresh)
     ends = next(solutions(poses, Observations(fresh, true)))
     gaps = (ends.base @ poses @ ends.targets[0] - true)[:, :3, 3]

@@ -10,6 +10,7 @@ from recalib.identification.checks.postures import find_postures
 from recalib.identification.held_out import FOLDS, HeldOut, blocks, random_folds
 from recalib.identification.model.frames import Frames
 from recalib.identification.validation import (
+    BLOCKWISE,
     GEOMETRIC,
     HYBRID,
     KINDS,
@@ -18,7 +19,7 @@ from recalib.identification.validation import (
     WAYS,
     validate,
 )
-from tests.identification.honesty import distances
+from tests.identification.honesty import MIDDLE, distances
 from tests.identification.real import Real
 
 ROWS = 40
@@ -216,3 +217,14 @@ def test_the_worst_part_decides_how_wide_intervals_are():
     held = HeldOut(errors[:, None] * [0.6, 0.8, 0.0], folds)
     assert held.radius() == pytest.approx(3 * 96)
     assert held.coverage() == pytest.approx((1.0 + 0.32) / 2)
+
+
+@pytest.mark.parametrize(("rows", "seed"), [(10, 0), (11, 0), (13, 2), (13, 3)])
+def test_of_few_positions_errors_are_known_too(ur10, rows, seed):
+    """Without most of the parts, and in some without all but one, directions are open."""
+    joints = MIDDLE + np.random.default_rng(seed).uniform(-1, 1, (rows, 6))
+    observations = Observations(joints, Real(ur10, seed).poses(joints)[:, :3, 3])
+    found = validate(ur10, observations, initial_frames(ur10, observations))
+    assert found.lost[BLOCKWISE].sum() > rows / 2
+    assert np.isfinite([found.mean_error(way, NOTHING) for way in WAYS]).all()
+    assert 0 <= found.coverage(BLOCKWISE) <= 1 and found.radius > 0

@@ -7,74 +7,23 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.files.quantities import NUMBER, Quantity
-from recalib.files.toml import read_toml
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import BOARD, Optics
 from recalib.laboratory.calibrate import Calibrated, identified, opened, silent
 from recalib.laboratory.data_set import DataSet
-from recalib.laboratory.pictures.observed import (
-    CAMERAS,
-    CORNERS,
-    IN_HAND,
-    LENS,
-    NAME,
-    OBSERVED,
-    PICTURE,
-    SETUP,
-    doubt_of,
-)
-from recalib.laboratory.tables.columns import PICTURES, TEXT, TIMES, Columns
+from recalib.laboratory.pictures.observed import LENS, doubt_of
+from recalib.laboratory.pictures.session import Session
+from recalib.laboratory.tables.columns import TIMES
 from recalib.laboratory.tables.description import Description
-from recalib.laboratory.tables.measurements import Measurements, read_joints
-from recalib.laboratory.tables.table import read_table
 from recalib.nominal.kinematics import Arm
-from recalib.spelling import counted
-from recalib.vision.boards import Board, board_in
-from recalib.vision.detection import FEWEST, Corners, are_on_a_line
 from recalib.vision.lens_search import FEWEST as FEWEST_VIEWS
 from recalib.vision.lens_search import find_lens, moved_lens
-from recalib.vision.lenses import Lens, read_lens
+from recalib.vision.lenses import Lens
 from recalib.vision.views import optics_kinds, optics_of, sighting
-
-PIXEL = Quantity("a pixel", {"px": 1.0}, farthest=1e5)
-LAYOUT = (
-    Columns("pictures", (PICTURE,), TEXT, needed=True),
-    Columns("corners", ("corner",), NUMBER, needed=True),
-    Columns("pixels", ("u", "v"), PIXEL, needed=True),
-)
-MOST_CORNERS = 1_000_000
-FLAT = 1e-3  # the width of corners in a picture over their length: less is a line
-
-
-@dataclass(frozen=True)
-class Session:
-    """Pictures of a board by a camera.
-
-    Attributes:
-        folder: that observe wrote.
-        camera, board_name: their names.
-        in_hand: whether the camera is on the hand.
-        fitted: whether the lens is estimated from the pictures.
-        board, lens: in all pictures.
-        rows: of the table.
-        views: the corners in each row's picture.
-    """
-
-    folder: Path
-    camera: str
-    board_name: str
-    in_hand: bool
-    fitted: bool
-    board: Board
-    lens: Lens
-    rows: Measurements
-    views: list[Corners]
 
 
 @dataclass(frozen=True)
@@ -100,9 +49,9 @@ class Cell:
         """
         sessions: list[Session] = []
         for folder in folders:
-            session = _session(folder, arm)
+            session = Session.read(folder, arm)
             for before in sessions:
-                if conflict := _conflict(before, session):
+                if conflict := before.conflict(session):
                     raise InvalidFile(folder, conflict)
             sessions.append(session)
         lenses, doubts = {}, []
@@ -234,20 +183,6 @@ def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataS
     )
 
 
-def _session(folder: Path, arm: Arm) -> Session:
-    setup = read_toml(path := folder / SETUP)
-    camera, fitted = setup.get("camera"), setup.get("lens_from_pictures")
-    if camera not in CAMERAS or not isinstance(fitted, bool):
-        raise InvalidFile(path, "camera or lens_from_pictures is not as observe wrote it")
-    names: list[Any] = [setup.get(f"{kind}_name") for kind in ("camera", "board")]
-    if not all(isinstance(name, str) and NAME.fullmatch(name) for name in names):
-        raise InvalidFile(path, "camera_name or board_name is not as observe wrote it")
-    board, lens = board_in(setup, path), read_lens(folder / LENS)
-    rows = read_joints(folder / OBSERVED, arm)
-    views = _views(folder / CORNERS, rows, board)
-    return Session(folder, names[0], names[1], camera == IN_HAND, fitted, board, lens, rows, views)
-
-
 def _lens_of(sessions: Sequence[Session]) -> tuple[Lens, str | None]:
     """The lens of a camera, by the pictures of its sessions or as given, and what is doubtful."""
     views = [(session.board, view) for session in sessions for view in session.views]
@@ -256,34 +191,6 @@ def _lens_of(sessions: Sequence[Session]) -> tuple[Lens, str | None]:
         return given, None
     found = find_lens(views, given.size)
     return found.lens if fitted else given, doubt_of(None if fitted else given, found, views)
-
-
-def _conflict(one: Session, other: Session) -> str | None:
-    """Why two sessions cannot be in one cell, if they cannot."""
-    camera, board = one.camera == other.camera, one.board_name == other.board_name
-    if camera and board:
-        return (
-            f"it has camera {one.camera!r} and board {one.board_name!r}, as {one.folder} has; try:"
-            " observe with another --name, or all of their pictures in one folder"
-        )
-    sides = {True: "on the hand", False: "next to the arm"}
-    if camera and one.in_hand != other.in_hand:
-        return (
-            f"it has camera {one.camera!r} {sides[other.in_hand]}, {one.folder} has it"
-            f" {sides[one.in_hand]}; try: observe with another --name"
-        )
-    if board and (one.in_hand != other.in_hand or one.board != other.board):
-        return (
-            f"its board {one.board_name!r} differs from that in {one.folder}; try: observe with a"
-            " --board of another file name"
-        )
-    lenses = [
-        (session.fitted, session.lens.size if session.fitted else session.lens.as_ros())
-        for session in (one, other)
-    ]
-    if camera and lenses[0] != lenses[1]:
-        return f"camera {one.camera!r} has another lens than in {one.folder}; try: the same --lens"
-    return None
 
 
 def _in_words(kind: str, names: Sequence[str]) -> list[str]:
@@ -299,29 +206,3 @@ def _placed(part: Optics, own: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarra
     slopes[..., own], gradient[:, own] = part.slopes, part.gradient
     information[:, own[:, None], own] = part.information
     return part.spread, slopes, information, gradient, part.pixels
-
-
-def _views(path: Path, rows: Measurements, board: Board) -> list[Corners]:
-    """The corners in each row's picture: rows may have been taken out or moved.
-
-    Raises InvalidFile: corners that no picture of the board can have.
-    """
-    if PICTURES.name not in rows.columns:
-        raise InvalidFile(rows.path, f"column {PICTURE!r} is missing")
-    table = read_table(path, most=MOST_CORNERS).read(LAYOUT)
-    corners, points = table["corners"], board.points
-    if not np.isin(corners, np.arange(len(points))).all():
-        raise InvalidFile(path, f"a corner is not among the board's {len(points)}")
-    views = []
-    for picture in rows.columns[PICTURES.name]:
-        shown = table["pictures"] == picture
-        numbers, pixels = corners[shown].astype(int), table["pixels"][shown]
-        if len(numbers) < FEWEST:
-            raise InvalidFile(path, f"{picture} has {counted(len(numbers), 'corner')}")
-        if len(np.unique(numbers)) < len(numbers):
-            raise InvalidFile(path, f"{picture} has a corner twice")
-        widths = np.linalg.svd(pixels - pixels.mean(axis=0), compute_uv=False)
-        if are_on_a_line(board, numbers) or widths[1] <= FLAT * widths[0]:
-            raise InvalidFile(path, f"all corners of {picture} are on a line")
-        views.append(Corners(numbers, pixels, 0.0))
-    return views

@@ -223,7 +223,8 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
     if positions is None:
         raise InvalidFile(path, "it has rotations without positions; expected: also x, y, z")
     (kind,) = turns
-    lengths = np.linalg.norm(given[kind.name], axis=1)
+    with np.errstate(over="ignore"):  # a length that is too large for a number is wrong, too
+        lengths = np.linalg.norm(given[kind.name], axis=1)
     if kind is QUATERNIONS and (wrong := np.abs(lengths - 1) > SKEW).any():
         row = int(wrong.argmax())
         found = f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; expected: 1"
