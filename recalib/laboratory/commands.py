@@ -91,6 +91,12 @@ def correct(options: Options) -> int:
         if frame == INSTRUMENT:
             valid = "a target's poses in the instrument's frame; joints alone need --frame base"
             raise InvalidFile(options.desired, f"x, y, z are missing; expected: {valid}")
+        if not correction.base_known:
+            reason = (
+                "joints alone mean poses in the arm's base, which the measurements do not determine"
+            )
+            valid = "x, y, z in the instrument's frame"
+            raise InvalidFile(options.desired, f"{reason}; expected: {valid}")
         assert rows.joints is not None
         poses, frame = arm.forward(arm.coupling.joints(rows.joints)), BASE
     names = None if targets is None else targets.tolist()

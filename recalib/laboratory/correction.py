@@ -150,6 +150,12 @@ class Correction:
         return self.arm.coupling.reported(self.learned)
 
     @property
+    def base_known(self) -> bool:
+        """Whether the measurements determine where the arm's base is."""
+        frames = self.calibration.frames
+        return not frames.base_unknown or bool(len(frames.sockets))
+
+    @property
     def unidentifiable_ends(self) -> str | None:
         """The ends of the arm whose errors are not identifiable, in words."""
         frames = self.calibration.frames
@@ -211,7 +217,7 @@ class Correction:
         if frame == BASE:
             if target is not None:
                 raise InvalidSetting("frame", frame, "instrument, in which a target's poses are")
-            if frames.base_unknown and not len(frames.sockets):
+            if not self.base_known:
                 raise InvalidSetting(
                     "frame",
                     frame,

@@ -19,6 +19,7 @@ from tests.laboratory.conftest import (
     ARM,
     NOISE,
     ROWS,
+    in_degrees,
     in_millimetres,
     postures,
     read,
@@ -109,6 +110,11 @@ def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_
         "arm's base is not identifiable from the measurements; try: a cal"
         in capsys.readouterr().err
     )
+    write(folder / "joints.csv", in_degrees(arm, postures(3)))
+    arguments[2] = str(folder / "joints.csv")
+    assert main(arguments) == REFUSED
+    told = capsys.readouterr().err
+    assert "joints.csv: joints alone mean poses in the arm's base, which the" in told
     assert not (folder / "no.csv").exists()
 
 

@@ -149,8 +149,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     os.chdir(copy)  # what is edited meanwhile changes nothing
     for part in its.parts:
         judge_part(part, its.count, its.again, copy)
-        files = {part: session_file(part) for part in PARTS}
-        write_page({part: path for part, path in files.items() if path.exists()})
+    sessions = {part: session_file(part) for part in PARTS}
+    if missing := [part for part, path in sessions.items() if not path.exists()]:
+        print(f"docs/mutants.md stays as it is: {', '.join(missing)} must be judged first")
+    else:
+        write_page(sessions)
     os.chdir(ROOT)
 
 
