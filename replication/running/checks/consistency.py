@@ -103,8 +103,6 @@ def _meanings(study: Study) -> Iterator[Mistake]:
                     yield unlike(("learners", name, switch.key), stood, f"{valid} {when}")
 
 
-
-
 def _amounts(study: Study) -> Iterator[Mistake]:
     """More of something than there can be, or less than it takes."""
     yield from _budgets(study)
