@@ -31,5 +31,5 @@ def test_another_arm_is_damaged_trained_drawn_and_recorded(urdf, tmp_path):
     for error in ("position_error_cm", "orientation_error_deg"):
         assert improved[f"final_{error}"] < 0.2 * improved[f"initial_{error}"]
     assert (results / "recordings" / "links_encoders.rrd").stat().st_size > 1e5
-    for made in ("claims.json", "figures/figure1.svg", "check.txt"):
+    for made in ("claims.json", "figures/figure1.svg"):
         assert (results / made).exists()
