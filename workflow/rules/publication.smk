@@ -63,7 +63,8 @@ rule pages:
     input:
         EVIDENCE_FILES,
         FINDINGS,
-        templates=[str(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],
+        # relative: a project that was moved does not begin again
+        templates=[os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],
         figures=FIGURES,
     output:
         pages=PAGES,
