@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import check_new, write_new
+from recalib.files.quantities import LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
@@ -33,7 +34,12 @@ def _load(module: str, name: str) -> Any:
 
 
 def calibrate(options: Options) -> int:
-    """Write a folder of results from a table, or from folders of pictures."""
+    """Write a folder of results from a table, from folders of pictures, or from flange poses."""
+    if options.poses is not None:
+        return calibrate_poses(options)
+    if not options.measurements:
+        valid = "URDF and a table, or --poses and --pictures"
+        raise InvalidSetting("measurements", None, valid)
     page_of = _load("laboratory.report.page", "page_of")
     paths: list[Path] = options.measurements
     folders = [path for path in paths if path.is_dir()]
@@ -56,6 +62,28 @@ def calibrate(options: Options) -> int:
     print(f"\n{options.out}: {', '.join(files)}")
     print(remark, end="\n" * bool(remark))
     return DONE if result.worthwhile else NO_BETTER
+
+
+def calibrate_poses(options: Options) -> int:
+    """Write a folder of where camera and board are, without a URDF."""
+    if (options.pictures is None) == (options.targets is None):
+        raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
+    module = "laboratory.hand_eye.calibrating"
+    height = _load(module, "read_height")(options.height, LENGTH.value_of)
+    conventions = options.convention, options.target_convention
+    reading = _load(module, "Reading")(*conventions, options.unit, options.inverse or (), height)
+    kind = options.camera == "hand", reading, print_progress
+    if options.targets is not None:
+        result = _load(module, "calibrate_by_targets")(options.poses, options.targets, *kind)
+    else:
+        board = options.board or Path("board/board.toml")
+        given = options.poses, options.pictures, board, options.lens
+        result = _load(module, "calibrate_by_pictures")(*given, *kind)
+    files = result.files()
+    write_new(options.out, files)
+    print(result.summary(), end="")
+    print(f"\n{options.out}: {', '.join(files)}")
+    return DONE if result.good else NO_BETTER
 
 
 def live(options: Options) -> int:

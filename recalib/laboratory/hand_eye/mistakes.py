@@ -1,0 +1,168 @@
+"""What poses of a flange and of a board cannot determine, and mistakes in them, each by its name.
+
+Other directions, other conventions and another camera's side are tried if the poses do not fit. The
+one that explains them is named. Sizes are compared by the scale s of the board in
+
+    R_X (s y_i) + x = R_Gi z + t_Gi,
+
+whose rotations are those of the fit.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from recalib.errors import RecalibError
+from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
+from recalib.laboratory.hand_eye.conventions import other_readings
+from recalib.laboratory.hand_eye.pose_table import PoseTable
+from recalib.laboratory.plausibility.mistakes import UNITS
+from recalib.spelling import counted
+
+FEWEST = 6  # poses: each has 6 numbers, and 12 are sought
+ALIKE = 2.0  # deg: orientations that differ by less
+WRONG, HOPELESS = 5e-3, 50e-3  # m: few arms and cameras leave as much; none does
+EXPLAINED = 0.3  # the part of what remains that may remain without a mistake
+OPEN = 0.05, np.radians(5)  # m, rad: a deviation as large is no result
+SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it has to be off
+TILT = "try: poses that are tilted by 20 deg or more, about two axes"
+
+
+class Undetermined(RecalibError):
+    """Poses that do not determine where camera and board are."""
+
+
+class Mistaken(RecalibError):
+    """Poses that fit only if they are read otherwise."""
+
+
+@dataclass(frozen=True)
+class Given:
+    """Tables of poses, as they were read.
+
+    Attributes:
+        flange: of all rows that count.
+        targets: poses of the board in the camera; None if pictures show it.
+    """
+
+    flange: PoseTable
+    targets: PoseTable | None
+
+
+def check_motion(sights: Sights) -> None:
+    """Raise Undetermined, unless the flange moved and turned as much as it takes."""
+    if len(sights) < FEWEST:
+        found = f"{counted(len(sights), 'pose')} can be used"
+        raise Undetermined(f"{found}; expected: at least {FEWEST}, better 15 or more")
+    (most, second, _), axes = sights.axes
+    if most < ALIKE:
+        raise Undetermined(
+            f"all poses are turned alike, within {most:.2g} deg, which does not determine where"
+            f" camera and board are; {TILT}"
+        )
+    if second < ONE_AXIS and sights.height is None:
+        axis = ", ".join(f"{number:.2f}" for number in axes[0] * np.sign(axes[0].sum()))
+        raise Undetermined(
+            f"all turns are about one axis, ({axis}) in the base, along which the places of camera"
+            f" and board are not determined; {TILT}; of an arm with four axes, --height"
+        )
+
+
+def check_result(found: HandEye) -> None:
+    """Raise Undetermined if a place is uncertain by decimetres."""
+    for part, name in enumerate(("camera", "board")):
+        position, turn = found.deviations(part)
+        if position > OPEN[0] or turn > OPEN[1]:
+            raise Undetermined(
+                f"the {name}'s place is known to {1e3 * position:.0f} mm and"
+                f" {np.degrees(turn):.1f} deg only; {TILT}, and that are decimetres apart"
+            )
+
+
+def check_fit(found: HandEye, given: Given) -> None:
+    """Raise Mistaken if the poses are likely wrong: in units, size, direction or convention."""
+    remaining = found.misfit
+    if remaining > WRONG:
+        _check_readings(found.sights, given, remaining)
+    scale, deviation = board_scale(found)
+    if abs(scale - 1) < max(SIZE, SURE * deviation):
+        return
+    for factor, words in UNITS.items():
+        if abs(scale * factor - 1) < 0.1 + SURE * deviation / scale:
+            raise Mistaken(
+                f"the flange's positions are likely {words}: the board's are {scale:.3g} times too"
+                " small; try: --unit, or another unit in the heading"
+            )
+    larger = "larger" if scale > 1 else "smaller"
+    raise Mistaken(
+        f"the board is {100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %) {larger}"
+        " than described, by the flange's positions; try: measure its square and the bar below it"
+    )
+
+
+def board_scale(found: HandEye) -> tuple[float, float]:
+    """The true size of the board over the one described, and its standard deviation."""
+    sights, turn = found.sights, found.camera[:3, :3]
+    rows = np.flatnonzero(found.weights >= np.median(found.weights) / 4)
+    between, places = sights.between[rows], sights.board[rows, :3, 3] @ turn.T
+    unit = np.tile(np.eye(3), (len(rows), 1, 1))
+    system = np.concatenate([places[:, :, None], unit, -between[:, :3, :3]], axis=2).reshape(-1, 7)
+    goal = between[:, :3, 3].ravel()
+    best = np.linalg.lstsq(system, goal)[0]
+    variance = np.mean((goal - system @ best) ** 2) * len(goal) / max(1, len(goal) - 7)
+    spread = variance * np.linalg.pinv(system.T @ system)[0, 0]
+    return float(best[0]), float(np.sqrt(spread))
+
+
+def _check_readings(sights: Sights, given: Given, remaining: float) -> None:
+    """Raise Mistaken if poses that are read otherwise fit much better."""
+    plain = _misfit(sights)
+    best, _, words = min(
+        (_misfit(other), number, words)
+        for number, (words, other) in enumerate(_others(sights, given))
+    )
+    if best < EXPLAINED * plain:
+        raise Mistaken(
+            f"the poses do not fit as they are read ({1e3 * remaining:.3g} mm remain), but they do"
+            f" ({1e3 * best:.3g} mm) if {words}"
+        )
+    if remaining > HOPELESS:
+        raise Mistaken(
+            f"the poses do not fit: {1e3 * remaining:.3g} mm remain, in whatever direction and"
+            " convention they are read; are rows and pictures in the same order?"
+        )
+
+
+def _misfit(sights: Sights) -> float:
+    """m, what the best closed form leaves."""
+    return min(start.misfit for start in starts(sights))
+
+
+def _others(sights: Sights, given: Given) -> Iterator[tuple[str, Sights]]:
+    """Other ways to read the poses, in words, the simplest first."""
+    side = "fixed" if sights.in_hand else "on the hand"
+    option = "fixed" if sights.in_hand else "hand"
+    direction = f"the camera is {side} (--camera {option}), or"
+    direction += " the flange's poses are those of the base in it (--inverse flange)"
+    if given.targets is not None:
+        direction += ", or the target's are those of the camera in it (--inverse targets)"
+    targets: list[tuple[str, np.ndarray]] = [("", sights.board)]
+    if given.targets is not None:
+        readings = _readings("target", "--target-convention", given.targets)
+        targets = [(words, table.poses) for words, table in readings]
+    for theirs, board in targets:
+        for own, flange in _readings("flange", "--convention", given.flange):
+            for flipped in (False, True):
+                poses = np.linalg.inv(flange.poses) if flipped else flange.poses
+                words = [*([direction] * flipped), *filter(None, (own, theirs))]
+                if words:
+                    yield ", and ".join(words), replace(sights, flange=poses, board=board)
+
+
+def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, PoseTable]]:
+    """A table as it was read, without words, and as its rotations could be read otherwise."""
+    yield "", table
+    for words, turns in other_readings(table.turns):
+        other = replace(table, rotations=turns.as_matrix())
+        yield f"the {name}'s rotations are {words} ({option})", other
