@@ -30,9 +30,10 @@ from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 
 ENDS = 12  # parameters of camera and board
-STEPS, ROUNDS, SMALL = 40, 6, 1e-8  # of a fit; of the noise and the weights; m, rad
-DEGREES = 6.0  # of freedom of Student's distribution: outliers count the less, the farther off
-FINEST = 1e-7  # m, rad: no arm is as accurate
+STEPS, ROUNDS, SMALL = 40, 20, 1e-8  # of a fit; of the noise and the weights; m, rad
+FAR = 16.8  # squares of deviations: of 6 numbers, 1 % are farther off; they count the less
+SETTLED = 0.01  # a change of weights
+FINEST, COARSEST = 1e-7, 1.0  # m, rad: no arm is as accurate, or as bad
 EXACT = 1e-12  # m^2, rad^2: the variance of a pose that a table gives
 FOLDS = 30
 TURNS = 24  # about the only axis, to start from
@@ -158,16 +159,20 @@ class HandEye:
 
 def calibrate_hand_eye(sights: Sights) -> HandEye:
     """The most likely calibration; what the poses leave open stays where a start has it."""
-    found = closest_start(sights)
+    found = _weighed(closest_start(sights))
     for _ in range(ROUNDS):
-        found = _moved_to_best(_with_noise(found))
-        linear = _Linear(found)
-        distances = linear.distances(linear.residuals)
-        weights = np.minimum((DEGREES + 6) / (DEGREES + distances), 1.0)
-        if np.abs(weights - found.weights).max() < 0.01:
+        before = found.weights
+        found = _weighed(_moved_to_best(_with_noise(found)))
+        if np.abs(found.weights - before).max() < SETTLED:
             break
-        found = replace(found, weights=weights)
     return found
+
+
+def _weighed(found: HandEye) -> HandEye:
+    """The same, with weights by how far off poses are, in deviations."""
+    linear = _Linear(found)
+    distances = linear.distances(linear.residuals)
+    return replace(found, weights=np.minimum(FAR / np.maximum(distances, FAR), 1.0))
 
 
 def closest_start(sights: Sights) -> HandEye:
@@ -276,15 +281,19 @@ class _Linear:
 
     def unlikelihood(self, accuracy: np.ndarray, noise: np.ndarray) -> float:
         """Twice the negative logarithm of the restricted likelihood, up to a constant."""
-        covariances = self.covariances(accuracy, noise) / self.found.weights[:, None, None]
+        weights = self.found.weights
+        weights = np.where(weights < min(OUTLIER, np.median(weights)), 0.0, weights)
+        covariances = self.covariances(accuracy, noise)
         precisions = np.linalg.inv(covariances)
-        information, gradient = self.normal_equations(precisions, np.ones(len(precisions)))
+        information, gradient = self.normal_equations(precisions, weights)
         scale = 1 / np.sqrt(np.maximum(information.diagonal(), np.finfo(float).tiny))
         scaled = information * scale * scale[:, None] + 1e-9 * np.eye(len(scale))
         gain = (gradient * scale) @ np.linalg.solve(scaled, gradient * scale)
-        squares = np.einsum("ni,nij,nj->", self.residuals, precisions, self.residuals) - gain
+        rows = self.residuals
+        squares = np.einsum("n,ni,nij,nj->", weights, rows, precisions, rows) - gain
         whole = np.linalg.slogdet(scaled)[1] - 2 * np.log(scale).sum()
-        return float(np.linalg.slogdet(covariances)[1].sum() + squares + whole)
+        each = np.linalg.slogdet(covariances)[1][weights > 0]
+        return float(each.sum() + squares + whole)
 
 
 def _with_noise(found: HandEye) -> HandEye:
@@ -293,7 +302,7 @@ def _with_noise(found: HandEye) -> HandEye:
     start = [*found.accuracy, *np.maximum(found.noise, found.accuracy / 10)[: 2 * by_table]]
 
     def split(logarithms: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        sizes = np.maximum(np.exp(logarithms), FINEST)
+        sizes = np.exp(np.clip(logarithms, *np.log([FINEST, COARSEST])))
         return sizes[:2], np.resize([*sizes[2:], 0, 0], 2)
 
     best = minimize(

@@ -10,6 +10,7 @@ whose rotations are those of the fit.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,6 +26,7 @@ ALIKE = 2.0  # deg: orientations that differ by less
 WRONG, HOPELESS = 5e-3, 50e-3  # m: few arms and cameras leave as much; none does
 EXPLAINED = 0.3  # the part of what remains that may remain without a mistake
 OPEN = 0.05, np.radians(5)  # m, rad: a deviation as large is no result
+LOOSE = 1e-2  # a singular value so small, over the largest, leaves a direction open
 SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it has to be off
 TILT = "try: poses that are tilted by 20 deg or more, about two axes"
 
@@ -83,36 +85,61 @@ def check_result(found: HandEye) -> None:
 def check_fit(found: HandEye, given: Given) -> None:
     """Raise Mistaken if the poses are likely wrong: in units, size, direction or convention."""
     remaining = found.misfit
+    candidates = [found] if remaining < WRONG else [found, *starts(found.sights)]
+    size = min(map(board_size, candidates), key=lambda size: size.remaining)
+    if remaining < WRONG or size.remaining < EXPLAINED * remaining:
+        _check_size(size)
     if remaining > WRONG:
         _check_readings(found.sights, given, remaining)
-    scale, deviation = board_scale(found)
+
+
+class Size(NamedTuple):
+    """The true size of the board over the one described.
+
+    Attributes:
+        scale: of it, by the flange's positions.
+        deviation: its standard deviation.
+        remaining: m, the median error of positions with it, as large as the board is described.
+    """
+
+    scale: float
+    deviation: float
+    remaining: float
+
+
+def board_size(found: HandEye) -> Size:
+    """How large the board is, by the rotation of a fit."""
+    sights, turn = found.sights, found.camera[:3, :3]
+    rows = np.flatnonzero(found.weights >= np.median(found.weights) / 4)
+    between, places = sights.between[rows], sights.board[rows, :3, 3] @ turn.T
+    unit = np.tile(np.eye(3), (len(rows), 1, 1))
+    system = np.concatenate([places[:, :, None], unit, -between[:, :3, :3]], axis=2)
+    goal, rows_of = between[:, :3, 3], system.reshape(-1, 7)
+    best = np.linalg.lstsq(rows_of, goal.ravel(), rcond=LOOSE)[0]
+    errors = goal - system @ best
+    variance = np.sum(errors**2) / max(1, errors.size - 7)
+    spread = variance * np.linalg.pinv(rows_of.T @ rows_of, rcond=LOOSE**2)[0, 0]
+    scale, remaining = float(best[0]), float(np.median(np.linalg.norm(errors, axis=1)))
+    # a board that shrinks to a point fits everything
+    return Size(scale, float(np.sqrt(spread)), remaining / scale if scale > 0 else np.inf)
+
+
+def _check_size(size: Size) -> None:
+    """Raise Mistaken if positions and the board are not of one scale."""
+    scale, deviation, _ = size
     if abs(scale - 1) < max(SIZE, SURE * deviation):
         return
     for factor, words in UNITS.items():
-        if abs(scale * factor - 1) < 0.1 + SURE * deviation / scale:
+        if abs(scale * factor - 1) < 0.1:
             raise Mistaken(
-                f"the flange's positions are likely {words}: the board's are {scale:.3g} times too"
-                " small; try: --unit, or another unit in the heading"
+                f"the flange's positions are likely {words}: by them, the board is {scale:.3g}"
+                " times as large as described; try: --unit, or another unit in the heading"
             )
     larger = "larger" if scale > 1 else "smaller"
     raise Mistaken(
         f"the board is {100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %) {larger}"
         " than described, by the flange's positions; try: measure its square and the bar below it"
     )
-
-
-def board_scale(found: HandEye) -> tuple[float, float]:
-    """The true size of the board over the one described, and its standard deviation."""
-    sights, turn = found.sights, found.camera[:3, :3]
-    rows = np.flatnonzero(found.weights >= np.median(found.weights) / 4)
-    between, places = sights.between[rows], sights.board[rows, :3, 3] @ turn.T
-    unit = np.tile(np.eye(3), (len(rows), 1, 1))
-    system = np.concatenate([places[:, :, None], unit, -between[:, :3, :3]], axis=2).reshape(-1, 7)
-    goal = between[:, :3, 3].ravel()
-    best = np.linalg.lstsq(system, goal)[0]
-    variance = np.mean((goal - system @ best) ** 2) * len(goal) / max(1, len(goal) - 7)
-    spread = variance * np.linalg.pinv(system.T @ system)[0, 0]
-    return float(best[0]), float(np.sqrt(spread))
 
 
 def _check_readings(sights: Sights, given: Given, remaining: float) -> None:
