@@ -57,7 +57,7 @@ def test_a_board_is_read_as_it_is_described(board, tmp_path):
     [
         ("columns = 7|columns = 1", "columns is 1; expected: a whole number from 2 to 50"),
         ('square = "36 mm"|square = 36', "square is 36; expected: a length in mm, cm, m"),
-        ('"charuco"|"chess"', "kind is 'chess'; expected: charuco or apriltag"),
+        ('"charuco"|"chess"', "kind is 'chess'; expected: charuco, apriltag, aprilgrid"),
         ("rows = 5|rows = 51", "rows is 51; expected: a whole number from 2 to 50"),
         ("columns = 7|columns = 6.0", "columns is 6.0; expected: a whole number from 2 to 50"),
         ('"27 mm"|"36.5 mm"', "marker is '36.5 mm'; expected: less than the square"),
