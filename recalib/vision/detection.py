@@ -2,6 +2,7 @@
 
 import warnings
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from recalib.vision.patterns import find_pattern, tags_of_kalibr
 FEWEST, FEWEST_MARKERS = 8, 4  # corners, and markers, to go by
 MISPLACED = 0.3  # of a marker's side: beside a plane by so much, most markers are of another board
 OTHERS = "4X4_250", "5X5_250", "6X6_250", "APRILTAG_36H11"
+DRAWN = 64  # px, of a square in a drawing
 HALF = 0.5  # px: this refinement counts from the corner of a picture, not from its first pixel
 MANY = 3  # markers of another dictionary that are no chance
 AROUND = 15  # px about an edge: where it is dark, bright and steepest
@@ -112,7 +114,21 @@ def _charuco(
     problem = _problem(board, places, *_as_arrays(found[0], found[1]))
     if numbers is None:
         return np.zeros(0, int), np.zeros((0, 2)), problem
-    return numbers.ravel(), corners.reshape(-1, 2), problem
+    return numbers.ravel(), corners.reshape(-1, 2) - charuco_offset(), problem
+
+
+@cache
+def charuco_offset() -> np.ndarray:
+    """px (2,) by which OpenCV's corners of such boards lie to the right and below.
+
+    That is half a pixel in OpenCV 4.10, and nothing from 4.14 on: it is measured on a drawn board.
+    """
+    alphabet = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+    board = cv2.aruco.CharucoBoard((4, 3), DRAWN, DRAWN * 0.75, alphabet)
+    picture = cv2.GaussianBlur(board.generateImage((4 * DRAWN, 3 * DRAWN)), (0, 0), 1)
+    corners, numbers, _, _ = cv2.aruco.CharucoDetector(board).detectBoard(picture)
+    true = np.array(board.getChessboardCorners())[numbers.ravel(), :2] - 0.5
+    return np.round(2 * np.median(corners.reshape(-1, 2) - true, axis=0)) / 2
 
 
 def are_on_a_line(board: Board, numbers: np.ndarray) -> bool:
