@@ -19,12 +19,12 @@ STUDY = """
     recording studies
 """.split()  # noqa: SIM905
 IDENTIFICATION = """
-    model closed_forms initial_estimate unseen estimation parameters calibration consensus design
+    model closed_forms hand_eye initial_estimate unseen estimation parameters calibration consensus design
     checks held_out validation arm_as_right
 """.split()  # noqa: SIM905
 LABORATORY = """
     tables urdf places data_set reaching correction plausibility results viewer report calibrate
-    pictures propose live options commands command_line
+    pictures hand_eye propose live options commands command_line
 """.split()  # noqa: SIM905
 EVIDENCE = """
     effects checks summary results verdicts speedup benchmark needs factor claims reference
@@ -45,6 +45,7 @@ PICTURES = {
     "laboratory/pictures/page_of_pictures.py": {"cv2", "matplotlib"},
     "vision/boards.py": {"cv2"},
     "vision/detection.py": {"PIL", "cv2"},
+    "vision/patterns.py": {"cv2"},
     "vision/printing.py": {"matplotlib"},
     "vision/views.py": {"cv2"},
 }
