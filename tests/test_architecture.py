@@ -19,12 +19,12 @@ STUDY = """
     recording studies
 """.split()  # noqa: SIM905
 IDENTIFICATION = """
-    model closed_forms hand_eye initial_estimate unseen estimation parameters calibration consensus design
-    checks held_out validation arm_as_right
+    model closed_forms hand_eye initial_estimate unseen estimation parameters calibration consensus
+    design checks held_out validation arm_as_right
 """.split()  # noqa: SIM905
 LABORATORY = """
     tables urdf places data_set reaching correction plausibility results viewer report calibrate
-    pictures hand_eye propose live options commands command_line
+    pictures propose live hand_eye options commands command_line
 """.split()  # noqa: SIM905
 EVIDENCE = """
     effects checks summary results verdicts speedup benchmark needs factor claims reference

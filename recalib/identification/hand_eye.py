@@ -145,6 +145,12 @@ class HandEye:
         position, turn = (float(np.sqrt(max(0.0, variance))) for variance in worst)
         return position, turn
 
+    def information(self, sights: Sights) -> np.ndarray:
+        """What each of further poses would say of camera and board: (n, 12, 12)."""
+        linear = _Linear(replace(self, sights=sights, weights=np.ones(len(sights))))
+        slopes = linear.slopes[..., :ENDS]
+        return slopes.swapaxes(1, 2) @ linear.precisions @ slopes
+
     def held_out(self) -> np.ndarray:
         """Residuals (n, 6) [m, rad] of each pose by a calibration without it and its fold."""
         count = len(self.sights)

@@ -10,14 +10,14 @@ import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import check_new, write_new
-from recalib.files.quantities import LENGTH
+from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
-from recalib.laboratory.report.folder import files_of, postures_table
+from recalib.laboratory.report.folder import files_of, poses_table, postures_table
 from recalib.laboratory.tables.columns import TARGETS
 from recalib.laboratory.tables.measurements import STILL, read_desired
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
@@ -146,7 +146,9 @@ def correct(options: Options) -> int:
 
 
 def next_(options: Options) -> int:
-    """Write the most informative postures."""
+    """Write the most informative postures, or poses of a flange."""
+    if options.poses:
+        return next_poses(options)
     correction = load_correction(options.calibration)
     candidates: np.ndarray | Goals | None = None
     if options.candidates is not None:
@@ -164,6 +166,20 @@ def next_(options: Options) -> int:
         f"They would reduce the uncertainty of predicted positions from {before:.3g} mm to"
         f" {after:.3g} mm" + ("." if proposal.worthwhile else ": enough has been measured.")
     )
+    return DONE
+
+
+def next_poses(options: Options) -> int:
+    """Write the poses of a flange that tell most of a camera's place."""
+    module = "laboratory.hand_eye.proposing"
+    folder = _load(module, "HandEyeFolder").read(options.calibration)
+    box = None if options.box is None else _load("laboratory.live.allowed", "Box").read(options.box)
+    cone = ANGLE.value_of("--cone", options.cone)
+    poses, deviations = _load(module, "propose_poses")(folder, options.count, box, cone)
+    write_new(options.out, poses_table(poses), ".csv")
+    before, after = 1e3 * deviations[[0, -1]]
+    print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
+    print(f"They would reduce the camera's deviation from {before:.3g} mm to {after:.3g} mm.")
     return DONE
 
 

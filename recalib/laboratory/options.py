@@ -138,6 +138,11 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     candidates = "postures to choose from (CSV; default: drawn at random)"
     own.add_argument("candidates", type=_path, nargs="?", help=candidates)
     own.add("--count", "number of postures", _positive, 10)
+    text = "propose flange poses; the calibration is a folder of calibrate --poses"
+    own.add_argument("--poses", action="store_true", help=text)
+    text = "with --poses: ranges of the flange's position: '-40 cm to 40 cm' ..."
+    own.add_argument("--box", nargs=3, metavar=("X", "Y", "Z"), help=text)
+    own.add("--cone", "with --poses: of lines of sight about the board's normal", str, "45 deg")
 
     own = add("urdf", "write a URDF from Denavit-Hartenberg parameters", "arm.urdf")
     own.add("links", "table (CSV): joint, a, alpha, d, theta, kind", _path)

@@ -16,6 +16,7 @@ from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.hand_eye.conventions import ORDERS
 from recalib.laboratory.hand_eye.pose_table import read_poses
+from recalib.vision.views import projected
 from tests.vision.hand_eye_cells import HandEyeCell, turned
 
 POSES = 20
@@ -298,6 +299,28 @@ def test_pictures(in_hand, tmp_path, monkeypatch, capsys):
     assert held_out["pixels"] ** 2 == pytest.approx(squares, rel=1e-2)
     assert 0.3 < held_out["millimetres"] < 3
     assert (tmp_path / "out/lens.yaml").exists()
+    box = [f"{1e2 * low:.1f} cm to {1e2 * high:.1f} cm" for low, high in limits_of(flange)]
+    options = ["--count", "6", "--cone", "40 deg", "--box", *box, "--out", "next.csv"]
+    assert main(["next", "out", "--poses", *options]) == DONE
+    before, after = map(float, re.findall(r"([\d.]+) mm", capsys.readouterr().out))
+    assert after < 0.9 * before
+    assert before == pytest.approx(length, rel=0.5)
+    proposed = read_poses("next.csv").poses
+    assert len(proposed) == 6
+    for pose in proposed:
+        shown = cell.seen(pose)
+        middle = shown[:3, :3] @ cell.board.points.mean(axis=0) + shown[:3, 3]
+        assert shown[:3, 2] @ middle / np.linalg.norm(middle) > np.cos(np.radians(45))
+        pixels, _ = projected(cell.board.points, cell.lens, shown)
+        assert np.mean((pixels > 0) & (pixels < cell.lens.size)) > 0.5
+        low, high = np.array(limits_of(flange)).T
+        assert ((pose[:3, 3] > low - 1e-3) & (pose[:3, 3] < high + 1e-3)).all()
+
+
+def limits_of(flange: np.ndarray) -> list[tuple[float, float]]:
+    """Ranges of x, y and z that a flange took, a little wider."""
+    places = flange[:, :3, 3]
+    return [*zip(places.min(axis=0) - 0.02, places.max(axis=0) + 0.02, strict=True)]
 
 
 def test_held_out_residuals_are_those_without_the_pose():

@@ -46,7 +46,7 @@ class Convention:
     @property
     def layout(self) -> tuple[Columns, Columns]:
         """The columns of a table, all in lower case."""
-        kind = ANGLE if self.angle else NUMBER
+        kind = ANGLE if len(self.headings) == 3 else NUMBER
         positions = Columns("positions", POSITIONS.headings, LENGTH, unit=self.length, needed=True)
         return positions, Columns("turns", self.headings, kind, unit=self.angle, needed=True)
 

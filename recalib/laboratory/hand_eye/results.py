@@ -5,16 +5,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from recalib.identification.hand_eye import HandEye
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.hand_eye.mistakes import WRONG
 from recalib.laboratory.pictures.observed import FIXED, IN_HAND, LENS, PICTURE, SETUP, Picture
 from recalib.laboratory.places import Place
+from recalib.laboratory.report.folder import pose_rows
 from recalib.laboratory.report.forms import Forms
 from recalib.laboratory.report.templates import render
-from recalib.laboratory.tables.columns import POSITIONS, ROTATION_VECTORS
 from recalib.laboratory.tables.table import table_text
 from recalib.vision.boards import Board
 from recalib.vision.lens_search import moved_lens
@@ -173,20 +172,9 @@ class HandEyeResult:
 
     def _rows(self) -> Iterator[dict[str, str]]:
         """For each pose that counts where the flange was, its held-out errors and its weight."""
-        flange = self.found.sights.flange
-        turns = Rotation.from_matrix(flange[:, :3, :3]).as_rotvec(degrees=True)
-        numbers = np.concatenate([1e3 * flange[:, :3, 3], turns], axis=1)
-        headings = [*POSITIONS.written, *ROTATION_VECTORS.written]
-        each = zip(
-            self.names, numbers, self.pixels, self.positions, self.found.weights, strict=True
-        )
+        rows = pose_rows(self.found.sights.flange)
+        each = zip(self.names, rows, self.pixels, self.positions, self.found.weights, strict=True)
         for name, pose, pixels, off, weight in each:
-            yield {
-                PICTURE: name,
-                **{
-                    heading: f"{number:.6f}" for heading, number in zip(headings, pose, strict=True)
-                },
-                **({"held out [px]": f"{pixels:.3f}"} if self.shown else {}),
-                "held out [mm]": f"{1e3 * off:.4g}",
-                "weight": f"{weight:.3g}",
-            }
+            corners = {"corners off [px]": f"{pixels:.3f}"} if self.shown else {}
+            errors = {"board off [mm]": f"{1e3 * off:.4g}", "weight": f"{weight:.3g}"}
+            yield {PICTURE: name} | pose | corners | errors
