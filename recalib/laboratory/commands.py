@@ -35,8 +35,10 @@ def _load(module: str, name: str) -> Any:
 
 def calibrate(options: Options) -> int:
     """Write a folder of results from a table, from folders of pictures, or from flange poses."""
-    if options.poses is not None:
+    if options.poses is not None and options.urdf is None:
         return calibrate_poses(options)
+    if options.poses is not None:
+        options.measurements = [_observed(options)]
     if not options.measurements:
         valid = "URDF and a table, or --poses and --pictures"
         raise InvalidSetting("measurements", None, valid)
@@ -84,6 +86,18 @@ def calibrate_poses(options: Options) -> int:
     print(result.summary(), end="")
     print(f"\n{options.out}: {', '.join(files)}")
     return DONE if result.good else NO_BETTER
+
+
+def _observed(options: Options) -> Path:
+    """The folder, written next to the output, of what pictures show with the joints of a table."""
+    if options.pictures is None:
+        raise InvalidSetting("--pictures", None, "a folder of pictures; without a URDF, --targets")
+    folder = Path(options.out).with_name(f"{Path(options.out).name}_observed")
+    ignored = _load("laboratory.hand_eye.conventions", "headings_of")(options.convention)
+    given = {"joints": options.poses, "name": "camera", "out": folder, "ignored": ignored}
+    board = options.board or Path("board/board.toml")
+    observe(Options(**vars(options) | given | {"board": board}))
+    return folder
 
 
 def live(options: Options) -> int:
@@ -246,7 +260,9 @@ def observe(options: Options) -> int:
     find_boards = _load("laboratory.pictures.observe", "observe")
     page_of_pictures = _load("laboratory.pictures.page_of_pictures", "page_of_pictures")
     pictures = options.pictures, options.joints, options.board, options.lens
-    result = find_boards(*pictures, options.camera == "hand", print_progress, options.name)
+    check_new(options.out, folder=True)
+    where = options.camera == "hand", print_progress, options.name
+    result = find_boards(*pictures, *where, getattr(options, "ignored", ()))
     write_new(options.out, result.files() | {"page.html": page_of_pictures(result)})
     print(result.summary(), end="")
     print(f"\n{options.out}: see page.html; next: recalib calibrate ARM.urdf {options.out}")

@@ -18,6 +18,7 @@ from recalib.laboratory.hand_eye.conventions import ORDERS
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.vision.views import projected
 from tests.vision.hand_eye_cells import HandEyeCell, turned
+from tests.vision.rendering import Cell
 
 POSES = 20
 SIDES = {True: "hand", False: "fixed"}
@@ -330,3 +331,33 @@ def test_held_out_residuals_are_those_without_the_pose():
         without = calibrate_hand_eye(sights[np.setdiff1d(np.arange(10), row)])
         expected = without.residuals(sights[np.array([row])])[0]
         assert np.linalg.norm(residuals[row] - expected) < 0.3 * np.linalg.norm(expected) + 1e-4
+
+
+@pytest.mark.parametrize("joints", [True, False])
+def test_with_joints_and_a_urdf_the_arm_is_calibrated(joints, tmp_path, monkeypatch, capsys):
+    """By the same table and the same pictures."""
+    monkeypatch.chdir(tmp_path)
+    cell = Cell(3, True)
+    postures = cell.postures(14)
+    (tmp_path / "pictures").mkdir()
+    headings = ["picture", *"xyzabc", *(cell.arm.joints if joints else ())]
+    rows = [",".join(f"{name} [rad]" if "joint" in name else name for name in headings)]
+    poses = written(cell.tool(postures), "kuka").splitlines()
+    for number, (pose, angles) in enumerate(zip(poses, postures, strict=True)):
+        shown = cell.picture(cell.board_poses(angles[None])[0])
+        cv2.imwrite(str(tmp_path / f"pictures/{number}.png"), shown)
+        own = [f"{angle:.9f}" for angle in angles] if joints else []
+        rows.append(",".join([f"{number}.png", *pose.split(), *own]))
+    (tmp_path / "poses.csv").write_text("\n".join(rows))
+    (tmp_path / "board.toml").write_text(cell.board.described())
+    inputs = ["--poses", "poses.csv", "--convention", "kuka", "--pictures", "pictures"]
+    where = ["--board", "board.toml", "--camera", "hand"]
+    assert main(["calibrate", *inputs, *where, "--out", "hand_eye"]) == DONE
+    arm = ["panda.urdf", "--tool", "panda_link8"]
+    ended = main(["calibrate", *arm, *inputs, *where, "--out", "arm"])
+    if joints:
+        assert ended == DONE
+        assert (tmp_path / "arm/arm.urdf").exists()
+    else:
+        assert ended == REFUSED
+        assert "the column of joint 'panda_joint1' is missing" in capsys.readouterr().err

@@ -100,6 +100,11 @@ def convention_of(name: str) -> Convention:
     return CONVENTIONS[name.lower()]
 
 
+def headings_of(name: str | None) -> tuple[str, ...]:
+    """The headings of poses by a convention; none if they are ours. Raises UnknownName."""
+    return () if name is None else (*POSITIONS.headings, *convention_of(name).headings)
+
+
 def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
     """What numbers (n, k) of rotations could mean, in words, and the rotations that they would be.
 

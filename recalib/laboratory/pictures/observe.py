@@ -46,6 +46,7 @@ def observe(
     in_hand: bool = False,
     on_progress: Callable[[str], None] = lambda line: None,
     camera: str = "camera",
+    ignored: Sequence[str] = (),
 ) -> Observed:
     """Find a board in pictures.
 
@@ -57,6 +58,7 @@ def observe(
         in_hand: whether the camera is on the hand.
         on_progress: called with what is being done, in a line each.
         camera: the name of the camera, among several.
+        ignored: columns that the table may have, in small letters.
 
     Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.
     """
@@ -64,6 +66,8 @@ def observe(
         raise InvalidSetting("--name", camera, "letters, digits, _ and -")
     given = None if lens is None else read_lens(lens)
     sheet, table = read_board(board), read_table(joints)
+    cells = {name: own for name, own in table.cells.items() if name.lower() not in ignored}
+    table = replace(table, cells=cells)
     if PICTURE not in table:
         raise InvalidFile(table.path, f"column {PICTURE!r} is missing: the name of each row's file")
     names = table.cells[PICTURE]
