@@ -43,6 +43,10 @@ EXECUTED = {  # by a test, or by the check of a change
     "recalib next calibration/": (
         f"{LABORATORY}::test_the_next_postures_are_within_limits_and_teach"
     ),
+    "recalib calibrate --poses poses.csv --pictures pictures/ --camera hand": (
+        "tests/vision/test_hand_eye.py::test_pictures"
+    ),
+    "recalib next calibration/ --poses": "tests/vision/test_hand_eye.py::test_pictures",
     "recalib board": f"{PICTURES}::session",
     "recalib observe pictures/ joints.csv": f"{PICTURES}::session",
     "recalib calibrate ARM.urdf observed/ --tool tool0": (
@@ -106,6 +110,7 @@ BY_HAND = {
     "python -m tests.station.paper_live": "15 minutes",
     "python -m tests.station.recording": "5 minutes; a test makes its learners",
     "python -m tests.vision.bars": "whole tables of calibrations; tests use its parts",
+    "python -m tests.vision.hand_eye_bars": "20 minutes, and OpenCV 4; tests use its cells",
     "python -m tests.vision.several": "whole tables of calibrations",
 }
 
