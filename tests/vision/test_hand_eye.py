@@ -148,7 +148,7 @@ def test_matrices(rows, count, tmp_path):
         ("x [m],y [m],z [m]\n1,2,3", "it has no rotation; expected: qx, qy, qz, qw"),
         ("x [m],y [m],z [m],qx,qy,qz,qw\n1,2,3,0,0,0,2", "the quaternion in row 1 has length 2"),
         ("-1 0 0 1 0 1 0 1 0 0 1 1", "is no rotation: its determinant is -1"),
-        ("1 0 0 512 0 1 0 80 0 0 1 300", "try: --unit mm"),
+        ("1 0 0 512 0 1 0 80 0 0 1 300", "Is its unit right?"),
     ],
 )
 def test_a_bad_table_is_refused(text, message, tmp_path, monkeypatch, capsys):

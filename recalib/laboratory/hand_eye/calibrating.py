@@ -9,7 +9,7 @@ import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.identification.hand_eye import Sights, calibrate_hand_eye
-from recalib.laboratory.hand_eye.mistakes import Given, check_fit, check_motion, check_result
+from recalib.laboratory.hand_eye.mistakes import check_fit, check_motion, check_result
 from recalib.laboratory.hand_eye.pose_table import PoseTable, read_poses
 from recalib.laboratory.hand_eye.results import HandEyeResult, Shown
 from recalib.laboratory.pictures.observe import find_board, pictures_in
@@ -88,7 +88,7 @@ def calibrate_by_pictures(
     flange = table[rows]
     sights = Sights(flange.poses, measured, in_hand, optics, reading.height)
     shown = Shown(sheet, known, given is None, found.pictures, doubt_of(given, found.own, views))
-    return _calibrated(sights, Given(flange, None), shown, on_progress)
+    return _calibrated(sights, (flange, None), shown, on_progress)
 
 
 def calibrate_by_targets(
@@ -108,19 +108,22 @@ def calibrate_by_targets(
         valid = f"expected: {len(flange)}, as in {flange.path.name}"
         raise InvalidFile(target.path, f"it has {counted(len(target), 'row')}; {valid}")
     sights = Sights(flange.poses, target.poses, in_hand, None, reading.height)
-    return _calibrated(sights, Given(flange, target), None, on_progress)
+    return _calibrated(sights, (flange, target), None, on_progress)
 
 
 def _calibrated(
-    sights: Sights, given: Given, shown: Shown | None, on_progress: Callable[[str], None]
+    sights: Sights,
+    tables: tuple[PoseTable, PoseTable | None],
+    shown: Shown | None,
+    on_progress: Callable[[str], None],
 ) -> HandEyeResult:
     check_motion(sights)
     on_progress("camera and board")
     found = calibrate_hand_eye(sights)
-    check_fit(found, given)
+    check_fit(found, *tables)
     check_result(found)
     on_progress("errors of poses that are held out")
-    return HandEyeResult(found, given.flange.path.name, found.held_out(), shown)
+    return HandEyeResult(found, tables[0].path.name, found.held_out(), shown)
 
 
 def read_height(text: str | None, kind: Callable[[str, str], float]) -> tuple[float, float] | None:

@@ -31,13 +31,11 @@ class Convention:
     """A way to write poses.
 
     Attributes:
-        meaning: of its rotations, for people.
         length, angle: the units, unless the headings of a table have others.
         headings: of the rotation, in the order in which the controller shows it.
         turns: the rotations of its numbers (n, k) [rad, 1].
     """
 
-    meaning: str
     length: str
     angle: str
     headings: tuple[str, ...]
@@ -66,13 +64,13 @@ def _meaning(order: str) -> str:
 
 
 CONVENTIONS = {
-    "ros": Convention(QUATERNION, "m", "", ("qx", "qy", "qz", "qw"), Rotation.from_quat),
-    "ur": Convention(VECTOR, "m", "rad", ("rx", "ry", "rz"), Rotation.from_rotvec),
-    "abb": Convention(SCALAR_FIRST, "mm", "", ("q1", "q2", "q3", "q4"), scalar_first),
-    "kuka": Convention(_meaning("ZYX"), "mm", "deg", ("a", "b", "c"), _angles("ZYX")),
-    "fanuc": Convention(_meaning("xyz"), "mm", "deg", ("w", "p", "r"), _angles("xyz")),
-    "staubli": Convention(_meaning("XYZ"), "mm", "deg", ("rx", "ry", "rz"), _angles("XYZ")),
-    "matrix": Convention("a matrix, row by row", "m", "", MATRIX, of_matrices),
+    "ros": Convention("m", "", ("qx", "qy", "qz", "qw"), Rotation.from_quat),
+    "ur": Convention("m", "rad", ("rx", "ry", "rz"), Rotation.from_rotvec),
+    "abb": Convention("mm", "", ("q1", "q2", "q3", "q4"), scalar_first),
+    "kuka": Convention("mm", "deg", ("a", "b", "c"), _angles("ZYX")),
+    "fanuc": Convention("mm", "deg", ("w", "p", "r"), _angles("xyz")),
+    "staubli": Convention("mm", "deg", ("rx", "ry", "rz"), _angles("XYZ")),
+    "matrix": Convention("m", "", MATRIX, of_matrices),
 }
 ORDERS = tuple(
     "".join(order)
@@ -81,10 +79,10 @@ ORDERS = tuple(
 )
 # without a convention, the headings of a table say what they are
 OWN = (
-    Convention(QUATERNION, "", "", ("qx", "qy", "qz", "qw"), Rotation.from_quat),
-    Convention(SCALAR_FIRST, "", "", ("qw", "qx", "qy", "qz"), scalar_first),
-    Convention(VECTOR, "", "", ("rx", "ry", "rz"), Rotation.from_rotvec),
-    Convention(_meaning("xyz"), "", "", ("roll", "pitch", "yaw"), _angles("xyz")),
+    Convention("", "", ("qx", "qy", "qz", "qw"), Rotation.from_quat),
+    Convention("", "", ("qw", "qx", "qy", "qz"), scalar_first),
+    Convention("", "", ("rx", "ry", "rz"), Rotation.from_rotvec),
+    Convention("", "", ("roll", "pitch", "yaw"), _angles("xyz")),
 )
 
 
@@ -94,7 +92,7 @@ def convention_of(name: str) -> Convention:
     Capitals turn about axes that move, as in SciPy. Raises UnknownName.
     """
     if name in ORDERS:
-        return Convention(_meaning(name), "mm", "deg", ("a", "b", "c"), _angles(name))
+        return Convention("mm", "deg", ("a", "b", "c"), _angles(name))
     if name.lower() not in CONVENTIONS:
         raise UnknownName("convention", name, [*CONVENTIONS, "an order such as ZYZ or xyz"])
     return CONVENTIONS[name.lower()]

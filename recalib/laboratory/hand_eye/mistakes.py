@@ -9,7 +9,7 @@ whose rotations are those of the fit.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -37,19 +37,6 @@ class Undetermined(RecalibError):
 
 class Mistaken(RecalibError):
     """Poses that fit only if they are read otherwise."""
-
-
-@dataclass(frozen=True)
-class Given:
-    """Tables of poses, as they were read.
-
-    Attributes:
-        flange: of all rows that count.
-        targets: poses of the board in the camera; None if pictures show it.
-    """
-
-    flange: PoseTable
-    targets: PoseTable | None
 
 
 def check_motion(sights: Sights) -> None:
@@ -82,15 +69,19 @@ def check_result(found: HandEye) -> None:
             )
 
 
-def check_fit(found: HandEye, given: Given) -> None:
-    """Raise Mistaken if the poses are likely wrong: in units, size, direction or convention."""
+def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> None:
+    """Raise Mistaken if poses are likely wrong: in units, size, direction or convention.
+
+    Args:
+        flange, targets: the tables that they are from; None if pictures show the target.
+    """
     remaining = found.misfit
     candidates = [found] if remaining < WRONG else [found, *starts(found.sights)]
     size = min(map(board_size, candidates), key=lambda size: size.remaining)
     if remaining < WRONG or size.remaining < EXPLAINED * remaining:
         _check_size(size)
     if remaining > WRONG:
-        _check_readings(found.sights, given, remaining)
+        _check_readings(found.sights, flange, targets, remaining)
 
 
 class Size(NamedTuple):
@@ -142,12 +133,14 @@ def _check_size(size: Size) -> None:
     )
 
 
-def _check_readings(sights: Sights, given: Given, remaining: float) -> None:
+def _check_readings(
+    sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
+) -> None:
     """Raise Mistaken if poses that are read otherwise fit much better."""
     plain = _misfit(sights)
     best, _, words = min(
         (_misfit(other), number, words)
-        for number, (words, other) in enumerate(_others(sights, given))
+        for number, (words, other) in enumerate(_others(sights, flange, targets))
     )
     if best < EXPLAINED * plain:
         raise Mistaken(
@@ -166,30 +159,31 @@ def _misfit(sights: Sights) -> float:
     return min(start.misfit for start in starts(sights))
 
 
-def _others(sights: Sights, given: Given) -> Iterator[tuple[str, Sights]]:
+def _others(
+    sights: Sights, flange: PoseTable, targets: PoseTable | None
+) -> Iterator[tuple[str, Sights]]:
     """Other ways to read the poses, in words, the simplest first."""
     side = "fixed" if sights.in_hand else "on the hand"
     option = "fixed" if sights.in_hand else "hand"
     direction = f"the camera is {side} (--camera {option}), or"
     direction += " the flange's poses are those of the base in it (--inverse flange)"
-    if given.targets is not None:
+    if targets is not None:
         direction += ", or the target's are those of the camera in it (--inverse targets)"
-    targets: list[tuple[str, np.ndarray]] = [("", sights.board)]
-    if given.targets is not None:
-        readings = _readings("target", "--target-convention", given.targets)
-        targets = [(words, table.poses) for words, table in readings]
-    for theirs, board in targets:
-        for own, flange in _readings("flange", "--convention", given.flange):
+    boards = [("", sights.board)]
+    if targets is not None:
+        boards = [*_readings("target", "--target-convention", targets)]
+    for theirs, board in boards:
+        for own, poses in _readings("flange", "--convention", flange):
             for flipped in (False, True):
-                poses = np.linalg.inv(flange.poses) if flipped else flange.poses
+                right = np.linalg.inv(poses) if flipped else poses
                 words = [*([direction] * flipped), *filter(None, (own, theirs))]
                 if words:
-                    yield ", and ".join(words), replace(sights, flange=poses, board=board)
+                    yield ", and ".join(words), replace(sights, flange=right, board=board)
 
 
-def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, PoseTable]]:
-    """A table as it was read, without words, and as its rotations could be read otherwise."""
-    yield "", table
+def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, np.ndarray]]:
+    """Poses as they were read, without words, and as rotations could be read otherwise."""
+    yield "", table.poses
     for words, turns in other_readings(table.turns):
         other = replace(table, rotations=turns.as_matrix())
-        yield f"the {name}'s rotations are {words} ({option})", other
+        yield f"the {name}'s rotations are {words} ({option})", other.poses

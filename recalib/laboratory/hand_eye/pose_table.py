@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.files.quantities import LENGTH
 from recalib.files.storage import read_file
 from recalib.identification.model.frames import nearest_rotation
 from recalib.laboratory.hand_eye.conventions import (
@@ -37,7 +36,6 @@ OF_MATRIX = (
 )
 _BETWEEN = re.compile(r"[\s,;]+")
 _COMMENT = re.compile(r"^\s*(#|%|//).*$", re.MULTILINE)
-_NUMBER = re.compile(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?", re.IGNORECASE | re.ASCII)
 _LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # e is in 1e-3
 
 
@@ -104,25 +102,15 @@ def read_poses(
     else:
         table, way = _of_numbers(numbers, Path(path), way)
     layout = way.layout
-    units, given = dict(table.units), table.units.get("x")
+    units = dict(table.units)
     for columns, own in zip(layout, (unit or way.length, way.angle), strict=True):
         units |= {name: units.get(name) or own for name in columns.headings}
     table = replace(table, units=units)
-    farthest = LENGTH.farthest / LENGTH.units.get(units["x"], 1.0)
-    if unit is None and not given and any(_size(table, axis) > farthest for axis in "xyz"):
-        reason = f"its positions go beyond {farthest:g} {units['x']}, and have no unit of their own"
-        raise InvalidFile(path, f"{reason}; try: --unit mm")
     arrays = table.read((*layout, PICTURES), [*table.cells])
     names = arrays.get(PICTURES.name)
     pictures = None if names is None else [str(name) for name in names]
     rotations = _rotations(table.path, way, arrays["turns"])
     return PoseTable(table.path, pictures, arrays["positions"], rotations, arrays["turns"])
-
-
-def _size(table: Table, column: str) -> float:
-    """The largest number in a column, without its sign; 0 if there is none."""
-    numbers = [cell for cell in table.cells.get(column, ()) if _NUMBER.fullmatch(cell)]
-    return max((abs(float(cell)) for cell in numbers), default=0.0)
 
 
 def _by_headings(table: Table) -> Convention:

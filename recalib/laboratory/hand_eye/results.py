@@ -40,20 +40,6 @@ class Shown(NamedTuple):
     doubt: str | None
 
 
-class Errors(NamedTuple):
-    """Root mean squares over poses.
-
-    Attributes:
-        pixels: px, of corners; NaN without pictures.
-        position: m, of the board across the line of sight; in a table of poses, of the target.
-        rotation: rad, of the board.
-    """
-
-    pixels: float
-    position: float
-    rotation: float
-
-
 @dataclass(frozen=True)
 class HandEyeResult:
     """A hand-eye calibration with its errors.
@@ -116,17 +102,20 @@ class HandEyeResult:
         return corners.across(corners.moved(self.residuals))
 
     @property
-    def held_out(self) -> Errors:
-        """Of poses that were not learned from; outliers do not count."""
+    def held_out(self) -> dict[str, float]:
+        """Root mean squares of poses that were not learned from: px, m and rad.
+
+        Outliers do not count.
+        """
         counted = np.setdiff1d(np.arange(len(self.residuals)), self.found.outliers)
         turns = np.linalg.norm(self.residuals[:, 3:], axis=1)
-        sizes = (self.pixels, self.positions, turns)
-        return Errors(*(float(np.sqrt(np.mean(size[counted] ** 2))) for size in sizes))
+        sizes = {"pixels": self.pixels, "position": self.positions, "rotation": turns}
+        return {name: float(np.sqrt(np.mean(size[counted] ** 2))) for name, size in sizes.items()}
 
     @property
     def own_share(self) -> float:
         """px, what the arm's own errors leave of the held-out error, beyond the corners' noise."""
-        return float(np.sqrt(max(0.0, self.held_out.pixels**2 - self.noise**2)))
+        return float(np.sqrt(max(0.0, self.held_out["pixels"] ** 2 - self.noise**2)))
 
     @property
     def lens(self) -> Lens | None:
