@@ -19,8 +19,8 @@ STUDY = """
     recording studies
 """.split()  # noqa: SIM905
 IDENTIFICATION = """
-    model closed_forms hand_eye initial_estimate unseen estimation parameters calibration consensus
-    design checks held_out validation arm_as_right
+    model closed_forms hand_eye_model hand_eye initial_estimate unseen estimation parameters
+    calibration consensus design checks held_out validation arm_as_right
 """.split()  # noqa: SIM905
 LABORATORY = """
     tables urdf places data_set reaching correction plausibility results viewer report calibrate

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.hand_eye import calibrate_hand_eye
+from recalib.identification.hand_eye import calibrate_hand_eye, held_out
 from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.hand_eye.conventions import ORDERS
@@ -326,7 +326,7 @@ def limits_of(flange: np.ndarray) -> list[tuple[float, float]]:
 
 def test_held_out_residuals_are_those_without_the_pose():
     sights = HandEyeCell(11, True).sights(10)
-    residuals = calibrate_hand_eye(sights).held_out()
+    residuals = held_out(calibrate_hand_eye(sights))
     for row in range(10):
         without = calibrate_hand_eye(sights[np.setdiff1d(np.arange(10), row)])
         expected = without.residuals(sights[np.array([row])])[0]

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting
-from recalib.identification.hand_eye import Sights, calibrate_hand_eye
+from recalib.identification.hand_eye import calibrate_hand_eye, held_out
+from recalib.identification.hand_eye_model import Sights
 from recalib.laboratory.hand_eye.mistakes import check_fit, check_motion, check_result
 from recalib.laboratory.hand_eye.pose_table import PoseTable, read_poses
 from recalib.laboratory.hand_eye.results import HandEyeResult, Shown
@@ -123,7 +124,7 @@ def _calibrated(
     check_fit(found, *tables)
     check_result(found)
     on_progress("errors of poses that are held out")
-    return HandEyeResult(found, tables[0].path.name, found.held_out(), shown)
+    return HandEyeResult(found, tables[0].path.name, held_out(found), shown)
 
 
 def read_height(text: str | None, kind: Callable[[str, str], float]) -> tuple[float, float] | None:

@@ -15,7 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from recalib.errors import RecalibError
-from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
+from recalib.identification.hand_eye import ONE_AXIS, starts
+from recalib.identification.hand_eye_model import HandEye, Sights
 from recalib.laboratory.hand_eye.conventions import other_readings
 from recalib.laboratory.hand_eye.pose_table import PoseTable
 from recalib.laboratory.plausibility.mistakes import UNITS

@@ -14,7 +14,8 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
 from recalib.files.toml import read_toml
-from recalib.identification.hand_eye import ENDS, ONE_AXIS, HandEye, Sights
+from recalib.identification.hand_eye import ONE_AXIS, information
+from recalib.identification.hand_eye_model import ENDS, HandEye, Sights
 from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.hand_eye.pose_table import read_poses
@@ -85,9 +86,9 @@ def propose_poses(
     """
     found = folder.found
     drawn = _drawn(folder, box, cone)
-    each = found.information(folder.seen(drawn))
+    each = information(found, folder.seen(drawn))
     scale = np.repeat([1.0, 1 / LEVER, 1.0, 1 / LEVER], 3)
-    total = found.information(found.sights).sum(axis=0) + np.diag(scale**-2.0)
+    total = information(found, found.sights).sum(axis=0) + np.diag(scale**-2.0)
     chosen: list[int] = []
     deviations = [_deviation(total)]
     for _ in range(min(count, len(drawn))):

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from recalib.identification.hand_eye import HandEye
+from recalib.identification.hand_eye_model import HandEye
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.hand_eye.mistakes import WRONG
 from recalib.laboratory.pictures.observed import FIXED, IN_HAND, LENS, PICTURE, SETUP, Picture
