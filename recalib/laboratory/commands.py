@@ -42,6 +42,11 @@ def calibrate(options: Options) -> int:
     if not options.measurements:
         valid = "URDF and a table, or --poses and --pictures"
         raise InvalidSetting("measurements", None, valid)
+    return calibrate_rows(options)
+
+
+def calibrate_rows(options: Options) -> int:
+    """Write a folder of results of an arm, from a table or from folders of pictures."""
     page_of = _load("laboratory.report.page", "page_of")
     paths: list[Path] = options.measurements
     folders = [path for path in paths if path.is_dir()]
@@ -117,7 +122,7 @@ def live(options: Options) -> int:
         pictures = {"pictures": Path("."), "joints": options.table, "name": "camera", "lens": None}
         observe(Options(**vars(options) | pictures | {"out": observed}))
         options.measurements = [observed]
-    return calibrate(options)
+    return calibrate_rows(options)
 
 
 def correct(options: Options) -> int:
