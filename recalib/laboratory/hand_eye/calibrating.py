@@ -10,7 +10,7 @@ import numpy as np
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.identification.hand_eye import calibrate_hand_eye, held_out
 from recalib.identification.hand_eye_model import Sights
-from recalib.laboratory.hand_eye.mistakes import check_fit, check_motion, check_result
+from recalib.laboratory.hand_eye.mistakes import FEWEST, check_fit, check_motion, check_result
 from recalib.laboratory.hand_eye.pose_table import PoseTable, read_poses
 from recalib.laboratory.hand_eye.results import HandEyeResult, Shown
 from recalib.laboratory.pictures.observe import find_board, pictures_in
@@ -80,7 +80,7 @@ def calibrate_by_pictures(
         if len(names) != len(table):
             counts = f"it has {counted(len(table), 'row')}, and {folder} has {len(names)} pictures"
             raise InvalidFile(table.path, f"{counts}; try: a column 'picture' with their names")
-    found = find_board(folder, names, table.path, sheet, given, on_progress)
+    found = find_board(folder, names, table.path, sheet, given, on_progress, FEWEST)
     used, known = [one for one in found.pictures if one.corners], given or found.own.lens
     rows = np.array([picture.row - 1 for picture in used])
     views = views_of(sheet, used)

@@ -96,11 +96,13 @@ def find_board(
     board: Board,
     given: Lens | None,
     on_progress: Callable[[str], None],
+    least: int = ENOUGH,
 ) -> Found:
     """Find a board in the pictures of these names in a folder; see `observe`.
 
     Args:
         table: the file that names them, for messages.
+        least: how many of them have to be of use.
     """
     if twice := [name for name, count in Counter(names).items() if count > 1]:
         raise InvalidFile(table, f"{twice[0]!r} is in more than one row")
@@ -115,7 +117,7 @@ def find_board(
         raise InvalidFile(folder, f"none of the pictures in {table.name} can be read")
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
     on_progress("the lens" if given is None else "poses")
-    own, pictures = _posed(_compared(pictures, size, given is not None), board, size, given)
+    own, pictures = _posed(_compared(pictures, size, given is not None), board, size, given, least)
     listed = {os.path.abspath(Path(folder) / name) for name in names}
     others = [path.name for path in pictures_in(folder) if os.path.abspath(path) not in listed]
     return Found(own, pictures, others)
@@ -176,16 +178,20 @@ def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool)
 
 
 def _posed(
-    pictures: list[Picture], board: Board, size: tuple[int, int], given: Lens | None
+    pictures: list[Picture],
+    board: Board,
+    size: tuple[int, int],
+    given: Lens | None,
+    least: int,
 ) -> tuple[FoundLens, list[Picture]]:
     """The lens by the pictures, and these with their poses; those that fit badly are refused."""
     while True:
         views = views_of(board, pictures)
-        if len(views) < max(ENOUGH, FEWEST):
+        if len(views) < max(least, FEWEST):
             first = next((f"; {one.name}: {one.reason}" for one in pictures if one.reason), "")
             raise RecalibError(
                 f"{len(views)} of {len(pictures)} pictures can be used; expected: at least"
-                f" {ENOUGH}{first}"
+                f" {max(least, FEWEST)}{first}"
             )
         own = find_lens(views, size)
         if given is not None:
