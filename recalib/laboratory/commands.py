@@ -8,15 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import check_new, write_new
+from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
-from recalib.laboratory.report.folder import files_of, postures_table
+from recalib.laboratory.report.folder import files_of, poses_table, postures_table
 from recalib.laboratory.tables.columns import TARGETS
 from recalib.laboratory.tables.measurements import STILL, read_desired
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
@@ -33,7 +34,19 @@ def _load(module: str, name: str) -> Any:
 
 
 def calibrate(options: Options) -> int:
-    """Write a folder of results from a table, or from folders of pictures."""
+    """Write a folder of results from a table, from folders of pictures, or from flange poses."""
+    if options.poses is not None and options.urdf is None:
+        return calibrate_poses(options)
+    if options.poses is not None:
+        options.measurements = [_observed(options)]
+    if not options.measurements:
+        valid = "URDF and a table, or --poses and --pictures"
+        raise InvalidSetting("measurements", None, valid)
+    return calibrate_rows(options)
+
+
+def calibrate_rows(options: Options) -> int:
+    """Write a folder of results of an arm, from a table or from folders of pictures."""
     page_of = _load("laboratory.report.page", "page_of")
     paths: list[Path] = options.measurements
     folders = [path for path in paths if path.is_dir()]
@@ -58,6 +71,40 @@ def calibrate(options: Options) -> int:
     return DONE if result.worthwhile else NO_BETTER
 
 
+def calibrate_poses(options: Options) -> int:
+    """Write a folder of where camera and board are, without a URDF."""
+    if (options.pictures is None) == (options.targets is None):
+        raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
+    module = "laboratory.hand_eye.calibrating"
+    height = _load(module, "read_height")(options.height, LENGTH.value_of)
+    conventions = options.convention, options.target_convention
+    reading = _load(module, "Reading")(*conventions, options.unit, options.inverse or (), height)
+    kind = options.camera == "hand", reading, print_progress
+    if options.targets is not None:
+        result = _load(module, "calibrate_by_targets")(options.poses, options.targets, *kind)
+    else:
+        board = options.board or Path("board/board.toml")
+        given = options.poses, options.pictures, board, options.lens
+        result = _load(module, "calibrate_by_pictures")(*given, *kind)
+    files = result.files()
+    write_new(options.out, files)
+    print(result.summary(), end="")
+    print(f"\n{options.out}: {', '.join(files)}")
+    return DONE if result.good else NO_BETTER
+
+
+def _observed(options: Options) -> Path:
+    """The folder, written next to the output, of what pictures show with the joints of a table."""
+    if options.pictures is None:
+        raise InvalidSetting("--pictures", None, "a folder of pictures; without a URDF, --targets")
+    folder = Path(options.out).with_name(f"{Path(options.out).name}_observed")
+    ignored = _load("laboratory.hand_eye.conventions", "headings_of")(options.convention)
+    given = {"joints": options.poses, "name": "camera", "out": folder, "ignored": ignored}
+    board = options.board or Path("board/board.toml")
+    observe(Options(**vars(options) | given | {"board": board}))
+    return folder
+
+
 def live(options: Options) -> int:
     """Move and measure, then calibrate by all rows."""
     observed = Path(options.out).with_name(f"{Path(options.out).name}_observed")
@@ -78,7 +125,7 @@ def live(options: Options) -> int:
         pictures = {"pictures": Path("."), "joints": options.table, "name": "camera", "lens": None}
         observe(Options(**vars(options) | pictures | {"out": observed}))
         options.measurements = [observed]
-    return calibrate(options)
+    return calibrate_rows(options)
 
 
 def correct(options: Options) -> int:
@@ -127,7 +174,9 @@ def correct(options: Options) -> int:
 
 
 def next_(options: Options) -> int:
-    """Write the most informative postures."""
+    """Write the most informative postures, or poses of a flange."""
+    if options.poses:
+        return next_poses(options)
     correction = load_correction(options.calibration)
     candidates: np.ndarray | Goals | None = None
     if options.candidates is not None:
@@ -145,6 +194,20 @@ def next_(options: Options) -> int:
         f"They would reduce the uncertainty of predicted positions from {before:.3g} mm to"
         f" {after:.3g} mm" + ("." if proposal.worthwhile else ": more rows are not worthwhile.")
     )
+    return DONE
+
+
+def next_poses(options: Options) -> int:
+    """Write the poses of a flange that tell most of a camera's place."""
+    module = "laboratory.hand_eye.proposing"
+    folder = _load(module, "HandEyeFolder").read(options.calibration)
+    box = None if options.box is None else _load("laboratory.live.allowed", "Box").read(options.box)
+    cone = ANGLE.value_of("--cone", options.cone)
+    poses, deviations = _load(module, "propose_poses")(folder, options.count, box, cone)
+    write_new(options.out, poses_table(poses), ".csv")
+    before, after = 1e3 * deviations[[0, -1]]
+    print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
+    print(f"They would reduce the camera's deviation from {before:.3g} mm to {after:.3g} mm.")
     return DONE
 
 
@@ -211,7 +274,9 @@ def observe(options: Options) -> int:
     find_boards = _load("laboratory.pictures.observe", "observe")
     page_of_pictures = _load("laboratory.pictures.page_of_pictures", "page_of_pictures")
     pictures = options.pictures, options.joints, options.board, options.lens
-    result = find_boards(*pictures, options.camera == "hand", print_progress, options.name)
+    check_new(options.out, folder=True)
+    where = options.camera == "hand", print_progress, options.name
+    result = find_boards(*pictures, *where, getattr(options, "ignored", ()))
     write_new(options.out, result.files() | {"page.html": page_of_pictures(result)})
     print(result.summary(), end="")
     print(f"\n{options.out}: see page.html; next: recalib calibrate ARM.urdf {options.out}")

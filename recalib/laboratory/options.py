@@ -16,6 +16,7 @@ FOLDERS = "calibrate", "live", "board", "observe"  # commands that write a folde
 DONE, REFUSED, NO_BETTER = 0, 1, 3
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no improvement."
 URDF = "URDF file, or the name of an arm of example-robot-data"
+WAYS = "ur, abb, kuka, fanuc, staubli, ros, matrix"
 CALIBRATION = "folder of calibrate, or its correction.npz"
 
 
@@ -62,17 +63,38 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
             "--recording", action="store_true", help="also write recording.rrd, for rerun"
         )
 
+    def add_poses(group: argparse._ArgumentGroup) -> None:
+        options = (
+            ("--poses", _path, "table of the flange's poses in the base"),
+            ("--pictures", _path, "folder of the board's pictures, one for each pose"),
+            ("--targets", _path, "or: table of the target's poses in the camera"),
+            ("--board", _path, "description of the board (default: board/board.toml)"),
+            ("--lens", _path, "lens calibration (default: estimated)"),
+            ("--convention", str, f"of rotations: {WAYS}, or an order such as ZYZ or xyz"),
+            ("--target-convention", str, "likewise, of the target's poses"),
+            ("--height", str, "of the board, if the arm turns about one axis: '312 mm +- 1 mm'"),
+        )
+        for name, kind, text in options:
+            group.add_argument(name, type=kind, help=text)
+        where = "where the camera is (default: fixed)"
+        group.add_argument("--camera", choices=CAMERAS, default="fixed", help=where)
+        group.add_argument("--unit", choices=LENGTH.units, help="of positions without a unit")
+        text = "this table has the inverse poses: of the base in the flange, of the camera in it"
+        group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
+
     own = add(
         "calibrate", "identify the arm's parameters from measurements", "calibration", _columns()
     )
-    own.add("urdf", URDF, _name)
+    own.add_argument("urdf", type=_name, nargs="?", help=f"{URDF}; not needed with --poses")
     own.add_argument(
         "measurements",
         type=_path,
-        nargs="+",
+        nargs="*",
         help="table (CSV), or folders from recalib observe, one for each camera",
     )
     add_arm(own)
+    hand_eye = own.add_argument_group("hand-eye calibration, without a URDF: see docs/poses.md")
+    add_poses(hand_eye)
 
     text = "move, measure and calibrate until the predicted error is small enough"
     own = add("live", text, "calibration")
@@ -114,6 +136,11 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     candidates = "postures to choose from (CSV; default: drawn at random)"
     own.add_argument("candidates", type=_path, nargs="?", help=candidates)
     own.add("--count", "number of postures", _positive, 10)
+    text = "propose flange poses; the calibration is a folder of calibrate --poses"
+    own.add_argument("--poses", action="store_true", help=text)
+    text = "with --poses: ranges of the flange's position: '-40 cm to 40 cm' ..."
+    own.add_argument("--box", nargs=3, metavar=("X", "Y", "Z"), help=text)
+    own.add("--cone", "with --poses: of lines of sight about the board's normal", str, "45 deg")
 
     own = add("urdf", "write a URDF from Denavit-Hartenberg parameters", "arm.urdf")
     own.add("links", "table (CSV): joint, a, alpha, d, theta, kind", _path)

@@ -1,9 +1,10 @@
-"""A lens: how directions become pixels. Read from ROS' camera_info or OpenCV's YAML."""
+"""A lens: how directions become pixels. Read from files of ROS, OpenCV, Kalibr and RealSense."""
 
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
+from typing import Any
 
 import numpy as np
 import yaml
@@ -19,6 +20,9 @@ MATRICES = "camera_matrix", "k", "K"
 DISTORTIONS = "distortion_coefficients", "dist_coeffs", "distCoeffs", "d", "D"
 OF_OPENCV = re.compile(r"!!opencv-[\w-]+")  # a tag, which other readers do not know
 SIZES = ("image_width", "image_height"), ("width", "height")
+KALIBR = {"radtan": "plumb_bob", "equidistant": FISHEYE, "none": "plumb_bob"}
+# RealSense's names, without capitals; of its inverse model, coefficients have to be zero
+REALSENSE = {"brown conrady": "plumb_bob", "kannala brandt4": FISHEYE, "none": "plumb_bob"}
 LONGEST = (
     0.05,
     50.0,
@@ -68,7 +72,7 @@ class Lens:
 
 
 def read_lens(path: str | PathLike[str]) -> Lens:
-    """The lens in the YAML at `path`. Coefficients that are zero at the end are no part of it.
+    """The lens in the YAML or JSON at `path`. Coefficients that are zero at its end are left out.
 
     Raises InvalidFile.
     """
@@ -76,11 +80,15 @@ def read_lens(path: str | PathLike[str]) -> Lens:
     try:
         lines = content.decode("utf-8").splitlines()
         text = "\n".join(line for line in lines if not line.startswith(("%", "---")))
-        tree = yaml.safe_load(OF_OPENCV.sub("", text))
+        tree = yaml.safe_load(OF_OPENCV.sub("", text).replace("\t", " "))
     except (ValueError, RecursionError, yaml.YAMLError):
         tree = None
     if not isinstance(tree, dict):
-        raise InvalidFile(path, "it is not a YAML file of OpenCV or ROS")
+        raise InvalidFile(path, "it is not a YAML file of OpenCV, ROS, Kalibr or RealSense")
+    try:
+        tree = _of_kalibr(_of_realsense(tree))
+    except (KeyError, TypeError, ValueError) as error:
+        raise InvalidFile(path, f"it is not a lens: {error}") from None
     matrix, distortion = (_numbers(tree, names) for names in (MATRICES, DISTORTIONS))
     sides = next((names for names in SIZES if tree.keys() >= {*names}), SIZES[0])
     size = np.concatenate([_numbers(tree, [side]) for side in sides])
@@ -110,6 +118,58 @@ def read_lens(path: str | PathLike[str]) -> Lens:
         count = next(n for n in (4, 5, 8) if not distortion[n:].any())
         distortion = distortion[:count]
     return Lens((width, height), matrix.reshape(3, 3), distortion, model == FISHEYE)
+
+
+def _of_kalibr(tree: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Kalibr's chain of one camera, as ROS has it; all else as it is.
+
+    Raises KeyError, TypeError, ValueError.
+    """
+    cameras = [camera for name, camera in tree.items() if re.fullmatch(r"cam\d+", str(name))]
+    if not cameras and "camera_model" not in tree:
+        return tree
+    if len(cameras) > 1:
+        raise ValueError(f"it has {len(cameras)} cameras; try: one of them in a file of its own")
+    camera = cameras[0] if cameras else tree
+    if camera["camera_model"] != "pinhole":
+        raise ValueError(f"camera_model is {camera['camera_model']!r}; expected: pinhole")
+    if (model := camera["distortion_model"]) not in KALIBR:
+        raise ValueError(f"distortion_model is {model!r}; expected: {', '.join(KALIBR)}")
+    width, height = camera["resolution"]
+    coefficients = camera.get("distortion_coeffs") or [0.0] * 4
+    return _as_ros((width, height), camera["intrinsics"], coefficients, KALIBR[model])
+
+
+def _of_realsense(tree: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The intrinsics of a RealSense camera, likewise."""
+    given = {str(name).lower(): value for name, value in tree.items()}
+    if not given.keys() >= {"fx", "fy", "ppx", "ppy"}:
+        return tree
+    coefficients = given["coeffs"]
+    if isinstance(coefficients, str):
+        coefficients = coefficients.split()
+    coefficients = [float(number) for number in coefficients]
+    name = str(given.get("model", given.get("distortion"))).lower().replace("_", " ")
+    name = name.removeprefix("distortion.")
+    if not any(coefficients):
+        name = "none"
+    if name not in REALSENSE:
+        raise ValueError(f"its model is {name!r}; expected: {', '.join(REALSENSE)}, or all zero")
+    if REALSENSE[name] == FISHEYE:
+        coefficients = coefficients[:4]
+    focal = [given[key] for key in ("fx", "fy", "ppx", "ppy")]
+    return _as_ros((given["width"], given["height"]), focal, coefficients, REALSENSE[name])
+
+
+def _as_ros(
+    size: tuple[Any, Any], focal: Sequence[Any], coefficients: Sequence[Any], model: str
+) -> dict[str, Any]:
+    """What a file of ROS has, of focal lengths and principal point (4,) [px]."""
+    fx, fy, cx, cy = focal
+    values = dict(zip(SIZES[0], size, strict=True))
+    matrix = [fx, 0, cx, 0, fy, cy, 0, 0, 1]
+    named = {MATRICES[0]: matrix, DISTORTIONS[0]: coefficients, "distortion_model": model}
+    return values | named
 
 
 def _numbers(tree: Mapping[str, object], names: Sequence[str]) -> np.ndarray:

@@ -1,5 +1,6 @@
 """Boards on paper and in TOML, and lenses in YAML."""
 
+import json
 from io import BytesIO
 
 import cv2
@@ -56,7 +57,7 @@ def test_a_board_is_read_as_it_is_described(board, tmp_path):
     [
         ("columns = 7|columns = 1", "columns is 1; expected: a whole number from 2 to 50"),
         ('square = "36 mm"|square = 36', "square is 36; expected: a length in mm, cm, m"),
-        ('"charuco"|"chess"', "kind is 'chess'; expected: charuco or apriltag"),
+        ('"charuco"|"chess"', "kind is 'chess'; expected: charuco, apriltag, aprilgrid"),
         ("rows = 5|rows = 51", "rows is 51; expected: a whole number from 2 to 50"),
         ("columns = 7|columns = 6.0", "columns is 6.0; expected: a whole number from 2 to 50"),
         ('"27 mm"|"36.5 mm"', "marker is '36.5 mm'; expected: less than the square"),
@@ -90,6 +91,86 @@ def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
         lens = read_lens(tmp_path / name)
         assert lens.size == LENS.size and np.allclose(lens.matrix, LENS.matrix)
         assert np.allclose(lens.distortion, LENS.distortion)
+
+
+RADIAL, FOUR = LENS.distortion[:4].tolist(), [0.05, -0.01, 0.003, -0.001]
+FX, FY, CX, CY = FOCAL = LENS.matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
+OTHERS = {
+    "kalibr": (
+        {
+            "cam0": {
+                "camera_model": "pinhole",
+                "distortion_coeffs": RADIAL,
+                "distortion_model": "radtan",
+                "intrinsics": FOCAL,
+                "resolution": list(LENS.size),
+                "rostopic": "/cam0/image_raw",
+            }
+        },
+        RADIAL,
+    ),
+    "kalibr, fisheye": (
+        {
+            "camera_model": "pinhole",
+            "distortion_coeffs": FOUR,
+            "distortion_model": "equidistant",
+            "intrinsics": FOCAL,
+            "resolution": list(LENS.size),
+        },
+        FOUR,
+    ),
+    "realsense": (
+        {
+            "width": LENS.size[0],
+            "height": LENS.size[1],
+            "ppx": CX,
+            "ppy": CY,
+            "fx": FX,
+            "fy": FY,
+            "model": "distortion.brown_conrady",
+            "coeffs": [*RADIAL, 0.0],
+        },
+        RADIAL,
+    ),
+    "realsense, printed": (
+        f"Width:\t{LENS.size[0]}\nHeight:\t{LENS.size[1]}\nPPX:\t{CX}\nPPY:\t{CY}\nFx:\t{FX}\n"
+        f"Fy:\t{FY}\nDistortion:\tInverse Brown Conrady\nCoeffs:\t0  \t0  \t0  \t0  \t0\n",
+        [0.0] * 4,
+    ),
+}
+
+
+@pytest.mark.parametrize(("content", "distortion"), OTHERS.values(), ids=OTHERS)
+def test_lenses_of_other_programs_are_read(content, distortion, tmp_path):
+    text = content if isinstance(content, str) else yaml.dump(content)
+    (tmp_path / "lens.yaml").write_text(text)
+    lens = read_lens(tmp_path / "lens.yaml")
+    assert lens.size == LENS.size and np.allclose(lens.matrix, LENS.matrix)
+    assert np.allclose(lens.distortion, distortion)
+    assert lens.fisheye == (distortion == FOUR)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("cam0|camera_0", "are no numbers of pixels"),
+        ("pinhole|omni", "camera_model is 'omni'; expected: pinhole"),
+        ("radtan|fov", "distortion_model is 'fov'; expected: radtan, equidistant, none"),
+        ("intrinsics|focal", "it is no lens: 'intrinsics'"),
+    ],
+)
+def test_a_chain_of_kalibr_that_is_none_is_refused(change, said, tmp_path):
+    text = yaml.dump(OTHERS["kalibr"][0]).replace(*change.split("|"))
+    (tmp_path / "lens.yaml").write_text(text)
+    with pytest.raises(InvalidFile, match=said):
+        read_lens(tmp_path / "lens.yaml")
+
+
+def test_coefficients_of_the_inverse_model_are_refused(tmp_path):
+    given = OTHERS["realsense"][0] | {"model": "inverse_brown_conrady"}
+    (tmp_path / "lens.json").write_text(json.dumps(given))
+    with pytest.raises(InvalidFile, match="its model is 'inverse brown conrady'"):
+        read_lens(tmp_path / "lens.json")
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,14 @@
 """From pictures of a board, and the joints at each, to what `recalib calibrate` reads."""
 
 import os
+import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from hashlib import sha256
 from os import PathLike
 from pathlib import Path
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -44,6 +46,7 @@ def observe(
     in_hand: bool = False,
     on_progress: Callable[[str], None] = lambda line: None,
     camera: str = "camera",
+    ignored: Sequence[str] = (),
 ) -> Observed:
     """Find a board in pictures.
 
@@ -55,6 +58,7 @@ def observe(
         in_hand: whether the camera is on the hand.
         on_progress: called with what is being done, in a line each.
         camera: the name of the camera, among several.
+        ignored: columns that the table may have, in small letters.
 
     Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.
     """
@@ -62,31 +66,72 @@ def observe(
         raise InvalidSetting("--name", camera, "letters, digits, _ and -")
     given = None if lens is None else read_lens(lens)
     sheet, table = read_board(board), read_table(joints)
+    cells = {name: own for name, own in table.cells.items() if name.lower() not in ignored}
+    table = replace(table, cells=cells)
     if PICTURE not in table:
         raise InvalidFile(table.path, f"column {PICTURE!r} is missing: the name of each row's file")
     names = table.cells[PICTURE]
-    if twice := [name for name, count in Counter(names).items() if count > 1]:
-        raise InvalidFile(table.path, f"{twice[0]!r} is in more than one row")
     for name, unit in table.units.items():  # a joint without a number is refused before the search
         if quantity := next((kind for kind in (ANGLE, LENGTH) if unit in kind.units), None):
             table.numbers(name, quantity)
+    found = find_board(folder, names, table.path, sheet, given, on_progress)
+    named = "_".join(NAME.findall(Path(board).stem)) or "board"
+    return Observed(
+        table, sheet, found.own, given, in_hand, found.pictures, found.unlisted, camera, named
+    )
+
+
+class Found(NamedTuple):
+    """The lens by pictures, these in the order of their names, and the names of others."""
+
+    own: FoundLens
+    pictures: list[Picture]
+    unlisted: list[str]
+
+
+def find_board(
+    folder: str | PathLike[str],
+    names: Sequence[str],
+    table: Path,
+    board: Board,
+    given: Lens | None,
+    on_progress: Callable[[str], None],
+    least: int = ENOUGH,
+) -> Found:
+    """Find a board in the pictures of these names in a folder; see `observe`.
+
+    Args:
+        table: the file that names them, for messages.
+        least: how many of them have to be of use.
+    """
+    if twice := [name for name, count in Counter(names).items() if count > 1]:
+        raise InvalidFile(table, f"{twice[0]!r} is in more than one row")
     if not Path(folder).is_dir():
         raise InvalidFile(folder, "there is no such folder of pictures")
     on_progress(f"the board in {len(names)} pictures")
     pictures = [
-        _searched(Path(folder) / name, row, name, sheet) for row, name in enumerate(names, 1)
+        _searched(Path(folder) / name, row, name, board) for row, name in enumerate(names, 1)
     ]
     sizes = [picture.size for picture in pictures if picture.size]
     if not sizes:
-        raise InvalidFile(folder, f"none of the pictures in {table.path.name} can be read")
+        raise InvalidFile(folder, f"none of the pictures in {table.name} can be read")
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
     on_progress("the lens" if given is None else "poses")
-    own, pictures = _posed(_compared(pictures, size, given is not None), sheet, size, given)
+    own, pictures = _posed(_compared(pictures, size, given is not None), board, size, given, least)
     listed = {os.path.abspath(Path(folder) / name) for name in names}
-    others = sorted(path for path in Path(folder).iterdir() if os.path.abspath(path) not in listed)
-    unlisted = [path.name for path in others if cv2.haveImageReader(str(path))]
-    named = "_".join(NAME.findall(Path(board).stem)) or "board"
-    return Observed(table, sheet, own, given, in_hand, pictures, unlisted, camera, named)
+    others = [path.name for path in pictures_in(folder) if os.path.abspath(path) not in listed]
+    return Found(own, pictures, others)
+
+
+def pictures_in(folder: str | PathLike[str]) -> list[Path]:
+    """The pictures in a folder by their names, with numbers as such: 2.png is before 10.png."""
+    paths = (path for path in Path(folder).iterdir() if cv2.haveImageReader(str(path)))
+
+    def by_numbers(path: Path) -> list[tuple[int, str]]:
+        parts = re.split(r"(\d+)", path.name)
+        return [(int(part), "") if part.isdecimal() else (0, part) for part in parts]
+
+    return sorted(paths, key=by_numbers)
 
 
 def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
@@ -133,16 +178,20 @@ def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool)
 
 
 def _posed(
-    pictures: list[Picture], board: Board, size: tuple[int, int], given: Lens | None
+    pictures: list[Picture],
+    board: Board,
+    size: tuple[int, int],
+    given: Lens | None,
+    least: int,
 ) -> tuple[FoundLens, list[Picture]]:
     """The lens by the pictures, and these with their poses; those that fit badly are refused."""
     while True:
         views = views_of(board, pictures)
-        if len(views) < max(ENOUGH, FEWEST):
+        if len(views) < max(least, FEWEST):
             first = next((f"; {one.name}: {one.reason}" for one in pictures if one.reason), "")
             raise RecalibError(
                 f"{len(views)} of {len(pictures)} pictures can be used; expected: at least"
-                f" {ENOUGH}{first}"
+                f" {max(least, FEWEST)}{first}"
             )
         own = find_lens(views, size)
         if given is not None:

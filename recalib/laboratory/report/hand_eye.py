@@ -1,15 +1,11 @@
 """Hand-eye calibration: where cameras and boards are, how sure that is, and what it is worth."""
 
-import shlex
 from collections.abc import Mapping
-
-import numpy as np
-from scipy.spatial.transform import Rotation
 
 from recalib.identification.arm_as_right import arm_as_right
 from recalib.identification.held_out import HeldOut
 from recalib.identification.validation import WAYS
-from recalib.laboratory.places import Place
+from recalib.laboratory.report.forms import Forms
 from recalib.laboratory.report.templates import render
 from recalib.laboratory.results import Results
 
@@ -28,21 +24,6 @@ def pixel_error(result: Results, way: str, kind: str, sight: int | None = None) 
     return float(observations.optics.moved(residuals)[counted].mean())
 
 
-def frame_name(place: Place) -> str:
-    """A place's name as TOML and ROS take it."""
-    return place.name.removeprefix("the ").replace(" ", "_")
-
-
-def static_transform(place: Place) -> str:
-    """The command of ROS 2 that publishes a place."""
-    turn = Rotation.from_matrix(place.pose[:3, :3]).as_quat()
-    names = "x", "y", "z", "qx", "qy", "qz", "qw"
-    numbers = zip(names, np.concatenate([place.position, turn]), strict=True)
-    given = " ".join(f"--{name} {number:.7f}" for name, number in numbers)
-    frames = f"--frame-id {shlex.quote(place.link)} --child-frame-id {frame_name(place)}"
-    return f"ros2 run tf2_ros static_transform_publisher {given} {frames}"
-
-
 def hand_eye(result: Results) -> str:
     """A TOML with all frames, held-out errors, and the same with the arm taken as right."""
     validation = result.validation
@@ -54,8 +35,7 @@ def hand_eye(result: Results) -> str:
         ("", result.places, _errors(result, held_out)),
         ("arm_as_right.", places, _errors(result, without)),
     )
-    functions = {"frame_name": frame_name, "static_transform": static_transform}
-    return render("hand_eye.toml.j2", parts=parts, **functions)
+    return render("hand_eye.toml.j2", parts=parts, forms=Forms)
 
 
 def _errors(result: Results, held_out: Mapping[str, HeldOut]) -> dict[str, tuple[float, float]]:
