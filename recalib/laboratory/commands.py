@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -14,12 +15,15 @@ from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
+from recalib.laboratory.hand_eye.conventions import convention_of
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report.folder import files_of, poses_table, postures_table
 from recalib.laboratory.tables.columns import TARGETS
+from recalib.laboratory.tables.description import within
 from recalib.laboratory.tables.measurements import STILL, read_desired
+from recalib.laboratory.tables.table import read_table
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
 from recalib.spelling import counted, listed
@@ -35,9 +39,9 @@ def _load(module: str, name: str) -> Any:
 
 def calibrate(options: Options) -> int:
     """Write a folder of results from a table, from folders of pictures, or from flange poses."""
-    if options.poses is not None and options.urdf is None:
-        return calibrate_poses(options)
     if options.poses is not None:
+        if options.urdf is None:
+            return calibrate_poses(options)
         options.measurements = [_observed(options)]
     if not options.measurements:
         valid = "URDF and a table, or --poses and --pictures"
@@ -75,17 +79,17 @@ def calibrate_poses(options: Options) -> int:
     """Write a folder of where camera and board are, without a URDF."""
     if (options.pictures is None) == (options.targets is None):
         raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
-    module = "laboratory.hand_eye.calibrating"
-    height = _load(module, "read_height")(options.height, LENGTH.value_of)
-    conventions = options.convention, options.target_convention
-    reading = _load(module, "Reading")(*conventions, options.unit, options.inverse or (), height)
-    kind = options.camera == "hand", reading, print_progress
-    if options.targets is not None:
-        result = _load(module, "calibrate_by_targets")(options.poses, options.targets, *kind)
+    calibrating, inverse = _hand_eye("calibrating"), options.inverse or ()
+    read_poses, in_hand = _hand_eye("pose_table").read_poses, options.camera == "hand"
+    flange = read_poses(options.poses, options.convention, options.unit, "flange" in inverse)
+    if options.targets is None:
+        given = options.pictures, options.board, options.lens, in_hand, print_progress
+        shown = calibrating.pictures_at(flange, *given)
     else:
-        board = options.board or Path("board/board.toml")
-        given = options.poses, options.pictures, board, options.lens
-        result = _load(module, "calibrate_by_pictures")(*given, *kind)
+        own = options.target_convention, options.unit, "targets" in inverse
+        shown = read_poses(options.targets, *own)
+    height = options.height and within("--height", options.height, LENGTH, 1e-4)
+    result = calibrating.calibrate_poses(flange, shown, in_hand, height, print_progress)
     files = result.files()
     write_new(options.out, files)
     print(result.summary(), end="")
@@ -93,15 +97,20 @@ def calibrate_poses(options: Options) -> int:
     return DONE if result.good else NO_BETTER
 
 
+def _hand_eye(module: str) -> Any:
+    """A module that needs OpenCV."""
+    return import_module(f"recalib.laboratory.hand_eye.{module}")
+
+
 def _observed(options: Options) -> Path:
     """The folder, written next to the output, of what pictures show with the joints of a table."""
     if options.pictures is None:
         raise InvalidSetting("--pictures", None, "a folder of pictures; without a URDF, --targets")
-    folder = Path(options.out).with_name(f"{Path(options.out).name}_observed")
-    ignored = _load("laboratory.hand_eye.conventions", "headings_of")(options.convention)
-    given = {"joints": options.poses, "name": "camera", "out": folder, "ignored": ignored}
-    board = options.board or Path("board/board.toml")
-    observe(Options(**vars(options) | given | {"board": board}))
+    folder, table = Path(f"{options.out}_observed"), read_table(options.poses)
+    own = convention_of(options.convention).headings if options.convention else ()
+    cells = {name: cells for name, cells in table.cells.items() if name.lower() not in own}
+    given = {"joints": replace(table, cells=cells), "name": "camera", "out": folder}
+    observe(Options(**vars(options) | given))
     return folder
 
 
@@ -199,11 +208,10 @@ def next_(options: Options) -> int:
 
 def next_poses(options: Options) -> int:
     """Write the poses of a flange that tell most of a camera's place."""
-    module = "laboratory.hand_eye.proposing"
-    folder = _load(module, "HandEyeFolder").read(options.calibration)
     box = None if options.box is None else _load("laboratory.live.allowed", "Box").read(options.box)
     cone = ANGLE.value_of("--cone", options.cone)
-    poses, deviations = _load(module, "propose_poses")(folder, options.count, box, cone)
+    propose_poses = _hand_eye("proposing").propose_poses
+    poses, deviations = propose_poses(options.calibration, options.count, box, cone)
     write_new(options.out, poses_table(poses), ".csv")
     before, after = 1e3 * deviations[[0, -1]]
     print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
@@ -275,8 +283,7 @@ def observe(options: Options) -> int:
     page_of_pictures = _load("laboratory.pictures.page_of_pictures", "page_of_pictures")
     pictures = options.pictures, options.joints, options.board, options.lens
     check_new(options.out, folder=True)
-    where = options.camera == "hand", print_progress, options.name
-    result = find_boards(*pictures, *where, getattr(options, "ignored", ()))
+    result = find_boards(*pictures, options.camera == "hand", print_progress, options.name)
     write_new(options.out, result.files() | {"page.html": page_of_pictures(result)})
     print(result.summary(), end="")
     print(f"\n{options.out}: see page.html; next: recalib calibrate ARM.urdf {options.out}")

@@ -23,6 +23,7 @@ CHARUCO, APRILTAG, APRILGRID, CHESSBOARD, CIRCLES = KINDS = (
 PLAIN = CHESSBOARD, CIRCLES  # without markers: they have to be seen as a whole
 SHAPE = "kind", "columns", "rows", "square"
 MARKERS = "marker", "dictionary", "first_id"
+LENGTHS = "square", "marker"
 KALIBR = {"aprilgrid": APRILGRID, "checkerboard": CHESSBOARD, "circlegrid": CIRCLES}
 DICTIONARY = "4X4_100"  # of the boards that we print
 BORDER = 1  # modules of black around the bits of a marker; of Kalibr's, 2
@@ -86,11 +87,6 @@ class Board:
         return self.columns * self.rows // (2 if self.kind == CHARUCO else 1)
 
     @property
-    def detail(self) -> float:
-        """m, the side of the smallest thing that has to be seen as such."""
-        return self.marker or self.square
-
-    @property
     def alphabet(self) -> Any:
         """OpenCV's dictionary of its markers."""
         return cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, f"DICT_{self.dictionary}"))
@@ -98,9 +94,6 @@ class Board:
     @cached_property
     def drawn(self) -> Any:
         """OpenCV's own board, of squares or tags."""
-        return self._drawn()
-
-    def _drawn(self) -> Any:
         size, alphabet = (self.columns, self.rows), self.alphabet
         numbers = self.first_id + np.arange(self.markers)
         if self.kind == CHARUCO:
@@ -108,32 +101,19 @@ class Board:
         return cv2.aruco.GridBoard(size, self.marker, self.square - self.marker, alphabet, numbers)
 
     @cached_property
-    def layouts(self) -> list[Any]:
-        """OpenCV's boards of squares, as it draws them now and as it did before version 4.6.
-
-        With an odd number of rows these are the same.
-        """
-        if self.rows % 2:
-            return [self.drawn]
-        legacy = self._drawn()
-        legacy.setLegacyPattern(True)
-        return [self.drawn, legacy]
-
-    @cached_property
     def points(self) -> np.ndarray:
         """Where the corners (c, 3) [m] are that are looked for, by their numbers."""
         if self.kind == CHARUCO:
             return np.array(self.drawn.getChessboardCorners(), dtype=float).reshape(-1, 3)
-        if self.kind in PLAIN:
-            across, down = np.meshgrid(np.arange(self.columns), np.arange(self.rows))
-            if self.kind == CIRCLES:
-                across = 2 * across + down % 2
-            else:
-                across, down = (part[1:, 1:] for part in (across, down))
-            flat = [across.ravel(), down.ravel(), np.zeros(down.size)]
-            return self.square * np.stack(flat, axis=1)
-        tags = self.tags.reshape(-1, 2)
-        return np.concatenate([tags, np.zeros((len(tags), 1))], axis=1)
+        down, across = np.mgrid[: self.rows, : self.columns]
+        if self.kind == CIRCLES:
+            across = 2 * across + down % 2
+        flat = self.square * np.stack([across, down], axis=-1)
+        if self.kind == CHESSBOARD:
+            flat = flat[1:, 1:]
+        elif self.kind != CIRCLES:
+            flat = self.tags
+        return np.pad(flat.reshape(-1, 2), ((0, 0), (0, 1)))
 
     @cached_property
     def tags(self) -> np.ndarray:
@@ -161,22 +141,12 @@ class Board:
 
     def described(self) -> str:
         """The part of a TOML that `read_board` reads."""
-        lines = [f"{name} = {self._cell(name)}" for name in keys_of(self.kind)]
-        return "\n".join(["[board]", *lines, ""])
-
-    def _cell(self, name: str) -> str:
-        value = getattr(self, name)
-        if name in LENGTHS:
-            return f'"{1e3 * value:.6g} mm"'
-        return f'"{value}"' if isinstance(value, str) else str(value)
-
-
-LENGTHS = "square", "marker"
-
-
-def keys_of(kind: object) -> tuple[str, ...]:
-    """The keys of a board of a kind in TOML."""
-    return SHAPE if kind in PLAIN else SHAPE + MARKERS
+        lengths = {name: f'"{1e3 * getattr(self, name):.6g} mm"' for name in LENGTHS}
+        lines = [
+            f"{name} = {lengths.get(name) or repr(getattr(self, name))}"
+            for name in (SHAPE if self.kind in PLAIN else SHAPE + MARKERS)
+        ]
+        return "\n".join(["[board]", *lines, ""]).replace("'", '"')
 
 
 def printable(columns: int, rows: int, square: float) -> Board:
@@ -200,15 +170,13 @@ def board_in(parts: Mapping[str, Any], path: str | PathLike[str]) -> Board:
     """The board in what was read of a TOML; its path is for messages. Raises InvalidFile."""
     given = parts.get("board")
     try:
-        names = keys_of(given.get("kind") if isinstance(given, dict) else None)
-        optional = {"first_id": 0} if "first_id" in names else {}
-        if not isinstance(given, dict) or {*optional, *given} != {*names}:
-            raise InvalidSetting("[board]", given, ", ".join(names))
-        values: dict[str, Any] = optional | given
-        values |= {name: LENGTH.value_of(name, given[name]) for name in LENGTHS if name in names}
-        if "dictionary" in names:
-            values["dictionary"] = str(given["dictionary"]).upper()
-        return Board(**values)
+        plain = isinstance(given, dict) and given.get("kind") in PLAIN
+        names = {*SHAPE} if plain else {*SHAPE, *MARKERS}
+        if not isinstance(given, dict) or {*given} not in (names, names - {"first_id"}):
+            raise InvalidSetting("[board]", given, ", ".join(SHAPE if plain else SHAPE + MARKERS))
+        lengths = {name: LENGTH.value_of(name, given[name]) for name in LENGTHS if name in given}
+        dictionary = str(given.get("dictionary", "")).upper()
+        return Board(**given | lengths | {"dictionary": dictionary})
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
 
@@ -219,22 +187,20 @@ def _board_of_kalibr(path: str | PathLike[str]) -> Board:
         given = yaml.safe_load(read_file(path, MOST))
         kind = KALIBR[given["target_type"]]
         if kind == APRILGRID:
-            side = float(given["tagSize"])
+            side, gap = float(given["tagSize"]), float(given["tagSpacing"])
             shape = int(given["tagCols"]), int(given["tagRows"])
-            return Board(
-                *(kind, *shape, side * (1 + float(given["tagSpacing"])), side, "APRILTAG_36H11")
-            )
-        shape = int(given["targetCols"]), int(given["targetRows"])
+            return Board(kind, *shape, side * (1 + gap), side, "APRILTAG_36H11")
+        columns, rows = int(given["targetCols"]), int(given["targetRows"])
         if kind == CIRCLES:
-            if not given["asymmetricGrid"]:
-                raise InvalidFile(path, "its circles are symmetric; expected: an asymmetric grid")
-            return Board(kind, *shape, float(given["spacingMeters"]))
-        down, across = (float(given[f"{name}SpacingMeters"]) for name in ("row", "col"))
+            if given["asymmetricGrid"]:
+                return Board(kind, columns, rows, float(given["spacingMeters"]))
+            raise InvalidFile(path, "its circles are symmetric; expected: an asymmetric grid")
+        down, across = float(given["rowSpacingMeters"]), float(given["colSpacingMeters"])
         if down != across:
             raise InvalidFile(path, f"its fields are {down} x {across} m; expected: squares")
-        return Board(kind, shape[0] + 1, shape[1] + 1, down)  # Kalibr counts corners
+        return Board(kind, columns + 1, rows + 1, down)  # Kalibr counts corners
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
     except (yaml.YAMLError, RecursionError, KeyError, TypeError, ValueError):
         valid = f"target_type: {listed(KALIBR, 'or')}, with its keys"
-        raise InvalidFile(path, f"it is no target of Kalibr; expected: {valid}") from None
+        raise InvalidFile(path, f"it is not a target of Kalibr; expected: {valid}") from None

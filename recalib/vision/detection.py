@@ -12,7 +12,7 @@ from PIL import Image
 
 from recalib.errors import RecalibError
 from recalib.vision.boards import APRILGRID, CHARUCO, CHESSBOARD, PLAIN, Board
-from recalib.vision.patterns import find_pattern, tags_of_kalibr
+from recalib.vision.patterns import find_pattern, misplaced, tags_of_kalibr
 
 FEWEST, FEWEST_MARKERS = 8, 4  # corners, and markers, to go by
 MISPLACED = 0.3  # of a marker's side: beside a plane by so much, most markers are of another board
@@ -81,8 +81,10 @@ def find_corners(board: Board, picture: np.ndarray) -> Corners:
             why = f"; it is blurred, by {blur:.1f} px or more" if blur > SOFT else ""
             raise Unusable(f"it does not show all {len(board.points)} {what}{why}")
     elif board.kind == CHARUCO:
+        layouts = [board.drawn, replace(board).drawn]  # OpenCV's own, and that before its 4.6
+        layouts[1].setLegacyPattern(True)
         numbers, pixels, problem = min(
-            (_charuco(board, layout, picture) for layout in board.layouts),
+            (_charuco(board, layout, picture) for layout in layouts[: 2 - board.rows % 2]),
             key=lambda found: (bool(found[2]), -len(found[0])),
         )
         if problem:
@@ -148,7 +150,7 @@ def _problem(board: Board, places: np.ndarray, markers: np.ndarray, ids: np.ndar
     if numbers.min() < 0 or numbers.max() >= board.markers:
         outside = ids[(numbers < 0) | (numbers >= board.markers)].max()
         return f"marker {outside} is not on the board: this is another one, or has another first_id"
-    if _misplaced(places[numbers], markers) > MISPLACED:
+    if misplaced(places[numbers], markers) > MISPLACED:
         return "markers are not where the board has them: this is another one"
     return None
 
@@ -187,16 +189,6 @@ def _as_arrays(corners: Any, ids: Any) -> tuple[np.ndarray, np.ndarray]:
     if ids is None:
         return np.zeros((0, 4, 2)), np.zeros(0, int)
     return np.array(corners).reshape(-1, 4, 2), ids.ravel()
-
-
-def _misplaced(places: np.ndarray, markers: np.ndarray) -> float:
-    """How far markers (m, 4, 2) [px] are from where a plane has them, in sides of theirs."""
-    plane, _ = cv2.findHomography(places.reshape(-1, 2), markers.reshape(-1, 2), cv2.LMEDS)
-    if plane is None:
-        return np.inf
-    expected = cv2.perspectiveTransform(places.astype(float), plane)
-    gaps = np.linalg.norm(expected - markers, axis=-1).mean(axis=1)
-    return float(np.quantile(gaps / np.linalg.norm(markers[:, 0] - markers[:, 1], axis=-1), 0.75))
 
 
 def _softness(picture: np.ndarray) -> float:

@@ -20,13 +20,12 @@ MATRICES = "camera_matrix", "k", "K"
 DISTORTIONS = "distortion_coefficients", "dist_coeffs", "distCoeffs", "d", "D"
 OF_OPENCV = re.compile(r"!!opencv-[\w-]+")  # a tag, which other readers do not know
 SIZES = ("image_width", "image_height"), ("width", "height")
-KALIBR = {"radtan": "plumb_bob", "equidistant": FISHEYE, "none": "plumb_bob"}
-# RealSense's names, without capitals; of its inverse model, coefficients have to be zero
-REALSENSE = {"brown conrady": "plumb_bob", "kannala brandt4": FISHEYE, "none": "plumb_bob"}
-LONGEST = (
-    0.05,
-    50.0,
-)  # focal lengths over the larger side of a picture: from a fisheye to a telescope
+# models of Kalibr and RealSense; of the inverse one of RealSense, coefficients have to be zero
+OTHERS = {"radtan": "plumb_bob", FISHEYE: FISHEYE, "none": "plumb_bob"}
+OTHERS |= {"brown conrady": "plumb_bob", "kannala brandt4": FISHEYE}
+REALSENSE = "fx", "fy", "ppx", "ppy"
+# focal lengths over the larger side of a picture: from a fisheye to a telescope
+LONGEST = 0.05, 50.0
 
 
 @dataclass(frozen=True)
@@ -86,7 +85,7 @@ def read_lens(path: str | PathLike[str]) -> Lens:
     if not isinstance(tree, dict):
         raise InvalidFile(path, "it is not a YAML file of OpenCV, ROS, Kalibr or RealSense")
     try:
-        tree = _of_kalibr(_of_realsense(tree))
+        tree = _as_ros(tree)
     except (KeyError, TypeError, ValueError) as error:
         raise InvalidFile(path, f"it is not a lens: {error}") from None
     matrix, distortion = (_numbers(tree, names) for names in (MATRICES, DISTORTIONS))
@@ -120,56 +119,35 @@ def read_lens(path: str | PathLike[str]) -> Lens:
     return Lens((width, height), matrix.reshape(3, 3), distortion, model == FISHEYE)
 
 
-def _of_kalibr(tree: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Kalibr's chain of one camera, as ROS has it; all else as it is.
+def _as_ros(tree: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A lens of Kalibr or RealSense, as ROS has it; all else as it is.
 
     Raises KeyError, TypeError, ValueError.
     """
     cameras = [camera for name, camera in tree.items() if re.fullmatch(r"cam\d+", str(name))]
-    if not cameras and "camera_model" not in tree:
-        return tree
     if len(cameras) > 1:
         raise ValueError(f"it has {len(cameras)} cameras; try: one of them in a file of its own")
-    camera = cameras[0] if cameras else tree
-    if camera["camera_model"] != "pinhole":
-        raise ValueError(f"camera_model is {camera['camera_model']!r}; expected: pinhole")
-    if (model := camera["distortion_model"]) not in KALIBR:
-        raise ValueError(f"distortion_model is {model!r}; expected: {', '.join(KALIBR)}")
-    width, height = camera["resolution"]
-    coefficients = camera.get("distortion_coeffs") or [0.0] * 4
-    return _as_ros((width, height), camera["intrinsics"], coefficients, KALIBR[model])
-
-
-def _of_realsense(tree: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The intrinsics of a RealSense camera, likewise."""
-    given = {str(name).lower(): value for name, value in tree.items()}
-    if not given.keys() >= {"fx", "fy", "ppx", "ppy"}:
+    given = {str(name).lower(): value for name, value in (*cameras, tree)[0].items()}
+    if "camera_model" in given:
+        if given["camera_model"] != "pinhole":
+            raise ValueError(f"camera_model is {given['camera_model']!r}; expected: pinhole")
+        size, focal, model = given["resolution"], given["intrinsics"], given["distortion_model"]
+        coefficients = given.get("distortion_coeffs") or [0.0] * 4
+    elif given.keys() >= {*REALSENSE}:
+        size, focal = ([given[key] for key in keys] for keys in (SIZES[1], REALSENSE))
+        coefficients, model = given["coeffs"], given.get("model", given.get("distortion"))
+        coefficients = coefficients.split() if isinstance(coefficients, str) else coefficients
+        coefficients = [float(number) for number in coefficients]
+        model = model if any(coefficients) else "none"
+    else:
         return tree
-    coefficients = given["coeffs"]
-    if isinstance(coefficients, str):
-        coefficients = coefficients.split()
-    coefficients = [float(number) for number in coefficients]
-    name = str(given.get("model", given.get("distortion"))).lower().replace("_", " ")
-    name = name.removeprefix("distortion.")
-    if not any(coefficients):
-        name = "none"
-    if name not in REALSENSE:
-        raise ValueError(f"its model is {name!r}; expected: {', '.join(REALSENSE)}, or all zero")
-    if REALSENSE[name] == FISHEYE:
-        coefficients = coefficients[:4]
-    focal = [given[key] for key in ("fx", "fy", "ppx", "ppy")]
-    return _as_ros((given["width"], given["height"]), focal, coefficients, REALSENSE[name])
-
-
-def _as_ros(
-    size: tuple[Any, Any], focal: Sequence[Any], coefficients: Sequence[Any], model: str
-) -> dict[str, Any]:
-    """What a file of ROS has, of focal lengths and principal point (4,) [px]."""
+    name = str(model).lower().replace("_", " ").removeprefix("distortion.")
+    if name not in OTHERS:
+        raise ValueError(f"its model is {name!r}; expected: {', '.join(OTHERS)}, or all zero")
     fx, fy, cx, cy = focal
-    values = dict(zip(SIZES[0], size, strict=True))
-    matrix = [fx, 0, cx, 0, fy, cy, 0, 0, 1]
-    named = {MATRICES[0]: matrix, DISTORTIONS[0]: coefficients, "distortion_model": model}
-    return values | named
+    named = OTHERS[name], [fx, 0, cx, 0, fy, cy, 0, 0, 1], coefficients[: MODELS[OTHERS[name]]]
+    keys = "distortion_model", MATRICES[0], DISTORTIONS[0]
+    return dict(zip((*SIZES[0], *keys), (*size, *named), strict=True))
 
 
 def _numbers(tree: Mapping[str, object], names: Sequence[str]) -> np.ndarray:

@@ -45,22 +45,14 @@ def _chessboard(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarr
     if across[0] * down[1] - across[1] * down[0] < 0:  # x to the right, y down
         grid = grid[::-1]
     if (columns + rows) % 2:
-        dark, light = (_brightness(picture, grid[:2, at : at + 2]) for at in (0, 1))
-        upside_down = dark > light
+        middles = (grid[:2, at : at + 2].mean(axis=(0, 1)).round().astype(int) for at in (0, 1))
+        first, second = (np.median(picture[y - 1 : y + 2, x - 1 : x + 2]) for x, y in middles)
+        upside_down = first > second
     else:
         upside_down = grid[0, 0].sum() > grid[-1, -1].sum()
     if upside_down:
         grid = grid[::-1, ::-1]
     return np.arange(columns * rows), grid.reshape(-1, 2)
-
-
-def _brightness(picture: np.ndarray, square: np.ndarray) -> float:
-    """The median in the middle half of a square between corners (2, 2, 2) [px]."""
-    middle = square.mean(axis=(0, 1))
-    inner = (middle + (square.reshape(4, 2)[[0, 1, 3, 2]] - middle) / 2).astype(np.int32)
-    mask = np.zeros(picture.shape, np.uint8)
-    cv2.fillConvexPoly(mask, inner, 1)
-    return float(np.median(picture[mask > 0]))
 
 
 def tags_of_kalibr(
@@ -82,15 +74,16 @@ def tags_of_kalibr(
     known = np.isin(numbers - board.first_id, np.arange(board.markers))
     if not known.all():
         return markers, numbers
-    places = board.tags[numbers - board.first_id].reshape(-1, 2)
+    places = board.tags[numbers - board.first_id]
     turned = [np.roll(markers, step, axis=1) for step in range(4)]  # prints differ in how tags lie
-    return min(turned, key=lambda each: _off_plane(places, each.reshape(-1, 2))), numbers
+    return min(turned, key=lambda each: misplaced(places, each)), numbers
 
 
-def _off_plane(places: np.ndarray, pixels: np.ndarray) -> float:
-    """The median of how far pixels (n, 2) are from where a plane has the places (n, 2)."""
-    plane, _ = cv2.findHomography(places, pixels, cv2.LMEDS)
+def misplaced(places: np.ndarray, markers: np.ndarray) -> float:
+    """How far markers (m, 4, 2) [px] are from where a plane has them, in sides of theirs."""
+    plane, _ = cv2.findHomography(places.reshape(-1, 2), markers.reshape(-1, 2), cv2.LMEDS)
     if plane is None:
         return np.inf
-    expected = cv2.perspectiveTransform(places[None], plane)[0]
-    return float(np.median(np.linalg.norm(expected - pixels, axis=1)))
+    expected = cv2.perspectiveTransform(places.astype(float), plane)
+    gaps = np.linalg.norm(expected - markers, axis=-1).mean(axis=1)
+    return float(np.quantile(gaps / np.linalg.norm(markers[:, 0] - markers[:, 1], axis=-1), 0.75))

@@ -153,10 +153,10 @@ def test_lenses_of_other_programs_are_read(content, distortion, tmp_path):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ("cam0|camera_0", "are no numbers of pixels"),
+        ("cam0|camera_0", "are not numbers of pixels"),
         ("pinhole|omni", "camera_model is 'omni'; expected: pinhole"),
-        ("radtan|fov", "distortion_model is 'fov'; expected: radtan, equidistant, none"),
-        ("intrinsics|focal", "it is no lens: 'intrinsics'"),
+        ("radtan|fov", "its model is 'fov'; expected: radtan, equidistant, none"),
+        ("intrinsics|focal", "it is not a lens: 'intrinsics'"),
     ],
 )
 def test_a_chain_of_kalibr_that_is_none_is_refused(change, said, tmp_path):

@@ -14,7 +14,6 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.hand_eye import calibrate_hand_eye, held_out
 from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
-from recalib.laboratory.hand_eye.conventions import ORDERS
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.vision.views import projected
 from tests.vision.hand_eye_cells import HandEyeCell, turned
@@ -33,7 +32,7 @@ def off(found: np.ndarray, true: np.ndarray) -> np.ndarray:
 def written(poses: np.ndarray, way: str = "ros", scale: float = 1.0) -> str:
     """A table of numbers alone."""
     turns = Rotation.from_matrix(poses[:, :3, :3])
-    if way in ORDERS:
+    if len(way) == 3 and way.lower().strip("xyz") == "":  # as ZYZ
         numbers, scale = turns.as_euler(way, degrees=True), 1e3 * scale
     else:
         numbers = {
@@ -146,8 +145,11 @@ def test_matrices(rows, count, tmp_path):
         ("1 2 3 4 5 6\n1 2 3", "its rows have different lengths"),
         ("1 2 3 4 5 6", "it has no headings; try: --convention"),
         ("x [m],y [m],z [m]\n1,2,3", "it has no rotation; expected: qx, qy, qz, qw"),
-        ("x [m],y [m],z [m],qx,qy,qz,qw\n1,2,3,0,0,0,2", "the quaternion in row 1 has length 2"),
-        ("-1 0 0 1 0 1 0 1 0 0 1 1", "is no rotation: its determinant is -1"),
+        ("x [m],y [m],z [m],qx,qy,qz,qw\n1,2,3,0,0,0,2", "the rotation in row 1 has the norm 2"),
+        (
+            "-1 0 0 1 0 1 0 1 0 0 1 1",
+            "it has a matrix that is not a rotation: Non-positive determinant",
+        ),
         ("1 0 0 512 0 1 0 80 0 0 1 300", "Is its unit right?"),
     ],
 )
@@ -211,8 +213,8 @@ def test_the_other_side_is_named(in_hand, tables, capsys):
     [
         (1.04, "larger than described"),
         (0.97, "smaller than described"),
-        (1e-3, "likely in metres that say mm"),
-        (10.0, "likely in millimetres that say cm"),
+        (1e-3, "likely in metres labelled mm"),
+        (10.0, "likely in millimetres labelled cm"),
     ],
 )
 def test_wrong_sizes_are_named(scale, message, tables, capsys):

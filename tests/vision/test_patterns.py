@@ -193,7 +193,7 @@ def test_targets_of_kalibr_are_read(text, expected, tmp_path):
     board = read_board(tmp_path / "target.yaml")
     assert board.kind == expected.kind and np.allclose(board.points, expected.points)
     (tmp_path / "target.yaml").write_text(text.partition("\n")[0])
-    with pytest.raises(InvalidFile, match="it is no target of Kalibr"):
+    with pytest.raises(InvalidFile, match="it is not a target of Kalibr"):
         read_board(tmp_path / "target.yaml")
 
 

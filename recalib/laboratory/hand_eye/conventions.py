@@ -1,29 +1,19 @@
 """How controllers write a pose: which numbers, in which units, and what they mean."""
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from itertools import permutations
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import UnknownName
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER
-from recalib.laboratory.tables.columns import POSITIONS, Columns
+from recalib.laboratory.tables.columns import POSITIONS, QUATERNIONS, ROTATION_VECTORS, Columns
+from recalib.laboratory.tables.measurements import TURNS
 
-Turns = Callable[[np.ndarray], Rotation]
-AXES = "xyz"
-
-
-def scalar_first(numbers: np.ndarray) -> Rotation:
-    """Rotations of quaternions (n, 4) w, x, y, z."""
-    return Rotation.from_quat(numbers, scalar_first=True)
-
-
-def of_matrices(numbers: np.ndarray) -> Rotation:
-    """Rotations of matrices (n, 9), row by row."""
-    return Rotation.from_matrix(numbers.reshape(-1, 3, 3))
+_ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler's angles; no axis twice in a row
 
 
 @dataclass(frozen=True)
@@ -31,15 +21,15 @@ class Convention:
     """A way to write poses.
 
     Attributes:
-        length, angle: the units, unless the headings of a table have others.
         headings: of the rotation, in the order in which the controller shows it.
         turns: the rotations of its numbers (n, k) [rad, 1].
+        length, angle: the units, unless the headings of a table have others.
     """
 
-    length: str
-    angle: str
     headings: tuple[str, ...]
-    turns: Turns
+    turns: Callable[[np.ndarray], Rotation]
+    length: str = ""
+    angle: str = ""
 
     @property
     def layout(self) -> tuple[Columns, Columns]:
@@ -49,40 +39,25 @@ class Convention:
         return positions, Columns("turns", self.headings, kind, unit=self.angle, needed=True)
 
 
-VECTOR, QUATERNION = "a rotation vector", "a quaternion x, y, z, w"
-SCALAR_FIRST = "a quaternion w, x, y, z"
+def _euler(order: str, *headings: str) -> Convention:
+    return Convention(headings, partial(Rotation.from_euler, order), "mm", "deg")
+
+
+scalar_first = partial(Rotation.from_quat, scalar_first=True)
 MATRIX = tuple(f"r{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3))
-
-
-def _angles(order: str) -> Turns:
-    return partial(Rotation.from_euler, order)
-
-
-def _meaning(order: str) -> str:
-    kind = "moving" if order.isupper() else "fixed"
-    return f"angles about the {kind} axes {', '.join(order.lower())}"
-
-
 CONVENTIONS = {
-    "ros": Convention("m", "", ("qx", "qy", "qz", "qw"), Rotation.from_quat),
-    "ur": Convention("m", "rad", ("rx", "ry", "rz"), Rotation.from_rotvec),
-    "abb": Convention("mm", "", ("q1", "q2", "q3", "q4"), scalar_first),
-    "kuka": Convention("mm", "deg", ("a", "b", "c"), _angles("ZYX")),
-    "fanuc": Convention("mm", "deg", ("w", "p", "r"), _angles("xyz")),
-    "staubli": Convention("mm", "deg", ("rx", "ry", "rz"), _angles("XYZ")),
-    "matrix": Convention("m", "", MATRIX, of_matrices),
+    "ros": Convention(QUATERNIONS.headings, Rotation.from_quat, "m"),
+    "ur": Convention(ROTATION_VECTORS.headings, Rotation.from_rotvec, "m", "rad"),
+    "abb": Convention(("q1", "q2", "q3", "q4"), scalar_first, "mm"),
+    "kuka": _euler("ZYX", "a", "b", "c"),
+    "fanuc": _euler("xyz", "w", "p", "r"),
+    "staubli": _euler("XYZ", "rx", "ry", "rz"),
+    "matrix": Convention(MATRIX, lambda rows: Rotation.from_matrix(rows.reshape(-1, 3, 3)), "m"),
 }
-ORDERS = tuple(
-    "".join(order)
-    for axes in (AXES, AXES.upper())
-    for order in (*permutations(axes), *((a, b, a) for a, b in permutations(axes, 2)))
-)
 # without a convention, the headings of a table say what they are
 OWN = (
-    Convention("", "", ("qx", "qy", "qz", "qw"), Rotation.from_quat),
-    Convention("", "", ("qw", "qx", "qy", "qz"), scalar_first),
-    Convention("", "", ("rx", "ry", "rz"), Rotation.from_rotvec),
-    Convention("", "", ("roll", "pitch", "yaw"), _angles("xyz")),
+    *(Convention(columns.headings, turns) for columns, turns in TURNS.items()),
+    *(Convention(("qw", "qx", "qy", "qz"), scalar_first), CONVENTIONS["matrix"]),
 )
 
 
@@ -91,16 +66,11 @@ def convention_of(name: str) -> Convention:
 
     Capitals turn about axes that move, as in SciPy. Raises UnknownName.
     """
-    if name in ORDERS:
-        return Convention("mm", "deg", ("a", "b", "c"), _angles(name))
+    if _ORDER.fullmatch(name):
+        return _euler(name, "a", "b", "c")
     if name.lower() not in CONVENTIONS:
         raise UnknownName("convention", name, [*CONVENTIONS, "an order such as ZYZ or xyz"])
     return CONVENTIONS[name.lower()]
-
-
-def headings_of(name: str | None) -> tuple[str, ...]:
-    """The headings of poses by a convention; none if they are ours. Raises UnknownName."""
-    return () if name is None else (*POSITIONS.headings, *convention_of(name).headings)
 
 
 def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
@@ -109,10 +79,11 @@ def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
     Angles may also be degrees that were read as rad, and the other way around.
     """
     if numbers.shape[1] == 4:
-        yield SCALAR_FIRST, scalar_first(numbers)
-        yield QUATERNION, Rotation.from_quat(numbers)
+        yield "a quaternion w, x, y, z", scalar_first(numbers)
+        yield "a quaternion x, y, z, w", Rotation.from_quat(numbers)
     if numbers.shape[1] == 3:
         for scale, unit in ((1.0, ""), (np.pi / 180, " [deg]"), (180 / np.pi, " [rad]")):
-            yield VECTOR + unit, Rotation.from_rotvec(scale * numbers)
+            yield f"a rotation vector{unit}", Rotation.from_rotvec(scale * numbers)
             for order in ("ZYX", "xyz", "XYZ", "ZYZ", "ZXZ"):
-                yield _meaning(order) + unit, Rotation.from_euler(order, scale * numbers)
+                axes = f"{'moving' if order.isupper() else 'fixed'} axes {', '.join(order.lower())}"
+                yield f"angles about the {axes}{unit}", Rotation.from_euler(order, scale * numbers)

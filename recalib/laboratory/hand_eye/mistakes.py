@@ -10,13 +10,11 @@ whose rotations are those of the fit.
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from recalib.errors import RecalibError
-from recalib.identification.hand_eye import ONE_AXIS, starts
-from recalib.identification.hand_eye_model import HandEye, Sights
+from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
 from recalib.laboratory.hand_eye.conventions import other_readings
 from recalib.laboratory.hand_eye.pose_table import PoseTable
 from recalib.laboratory.plausibility.mistakes import UNITS
@@ -32,75 +30,57 @@ SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it h
 TILT = "try: poses that are tilted by 20 deg or more, about two axes"
 
 
-class Undetermined(RecalibError):
-    """Poses that do not determine where camera and board are."""
-
-
 class Mistaken(RecalibError):
-    """Poses that fit only if they are read otherwise."""
+    """Poses that do not determine where camera and board are, or fit only if read otherwise."""
 
 
 def check_motion(sights: Sights) -> None:
-    """Raise Undetermined, unless the flange moved and turned as much as it takes."""
+    """Raise Mistaken, unless the flange moved and turned as much as it takes."""
     if len(sights) < FEWEST:
         found = f"{counted(len(sights), 'pose')} can be used"
-        raise Undetermined(f"{found}; expected: at least {FEWEST}, better 15 or more")
+        raise Mistaken(f"{found}; expected: at least {FEWEST}, better 15 or more")
     (most, second, _), axes = sights.axes
     if most < ALIKE:
-        raise Undetermined(
+        raise Mistaken(
             f"all poses are turned alike, within {most:.2g} deg, which does not determine where"
             f" camera and board are; {TILT}"
         )
     if second < ONE_AXIS and sights.height is None:
         axis = ", ".join(f"{number:.2f}" for number in axes[0] * np.sign(axes[0].sum()))
-        raise Undetermined(
+        raise Mistaken(
             f"all turns are about one axis, ({axis}) in the base, along which the places of camera"
             f" and board are not determined; {TILT}; of an arm with four axes, --height"
         )
 
 
-def check_result(found: HandEye) -> None:
-    """Raise Undetermined if a place is uncertain by decimetres."""
-    for part, name in enumerate(("camera", "board")):
-        position, turn = found.deviations(part)
-        if position > OPEN[0] or turn > OPEN[1]:
-            raise Undetermined(
-                f"the {name}'s place is known to {1e3 * position:.0f} mm and"
-                f" {np.degrees(turn):.1f} deg only; {TILT}, and that are decimetres apart"
-            )
-
-
 def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> None:
-    """Raise Mistaken if poses are likely wrong: in units, size, direction or convention.
+    """Raise Mistaken if poses are likely wrong, or leave a place uncertain by decimetres.
 
     Args:
         flange, targets: the tables that they are from; None if pictures show the target.
     """
     remaining = found.misfit
-    candidates = [found] if remaining < WRONG else [found, *starts(found.sights)]
-    size = min(map(board_size, candidates), key=lambda size: size.remaining)
-    if remaining < WRONG or size.remaining < EXPLAINED * remaining:
-        _check_size(size)
-    if remaining > WRONG:
+    fits = remaining < WRONG
+    sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
+    scale, deviation, left = min(sizes, key=lambda size: size[2])
+    if fits or left < EXPLAINED * remaining:
+        _check_size(scale, deviation)
+    if not fits:
         _check_readings(found.sights, flange, targets, remaining)
+    for part, name in enumerate(("camera", "board")):
+        position, turn = found.deviations(part)
+        if position > OPEN[0] or turn > OPEN[1]:
+            raise Mistaken(
+                f"the {name}'s place is known to {1e3 * position:.0f} mm and"
+                f" {np.degrees(turn):.1f} deg only; {TILT}, and that are decimetres apart"
+            )
 
 
-class Size(NamedTuple):
-    """The true size of the board over the one described.
+def board_size(found: HandEye) -> tuple[float, float, float]:
+    """The board's true size over the one described, by the rotation of a fit; its deviation.
 
-    Attributes:
-        scale: of it, by the flange's positions.
-        deviation: its standard deviation.
-        remaining: m, the median error of positions with it, as large as the board is described.
+    Also the median error of positions with it [m], as large as the board is described.
     """
-
-    scale: float
-    deviation: float
-    remaining: float
-
-
-def board_size(found: HandEye) -> Size:
-    """How large the board is, by the rotation of a fit."""
     sights, turn = found.sights, found.camera[:3, :3]
     rows = np.flatnonzero(found.weights >= np.median(found.weights) / 4)
     between, places = sights.between[rows], sights.board[rows, :3, 3] @ turn.T
@@ -113,12 +93,11 @@ def board_size(found: HandEye) -> Size:
     spread = variance * np.linalg.pinv(rows_of.T @ rows_of, rcond=LOOSE**2)[0, 0]
     scale, remaining = float(best[0]), float(np.median(np.linalg.norm(errors, axis=1)))
     # a board that shrinks to a point fits everything
-    return Size(scale, float(np.sqrt(spread)), remaining / scale if scale > 0 else np.inf)
+    return scale, float(np.sqrt(spread)), remaining / scale if scale > 0 else np.inf
 
 
-def _check_size(size: Size) -> None:
+def _check_size(scale: float, deviation: float) -> None:
     """Raise Mistaken if positions and the board are not of one scale."""
-    scale, deviation, _ = size
     if abs(scale - 1) < max(SIZE, SURE * deviation):
         return
     for factor, words in UNITS.items():
@@ -127,10 +106,10 @@ def _check_size(size: Size) -> None:
                 f"the flange's positions are likely {words}: by them, the board is {scale:.3g}"
                 " times as large as described; try: --unit, or another unit in the heading"
             )
-    larger = "larger" if scale > 1 else "smaller"
     raise Mistaken(
-        f"the board is {100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %) {larger}"
-        " than described, by the flange's positions; try: measure its square and the bar below it"
+        f"the board is {100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %)"
+        f" {'larger' if scale > 1 else 'smaller'} than described, by the flange's positions; try:"
+        " measure its square and the bar below it"
     )
 
 
@@ -138,47 +117,41 @@ def _check_readings(
     sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
 ) -> None:
     """Raise Mistaken if poses that are read otherwise fit much better."""
-    plain = _misfit(sights)
-    best, _, words = min(
-        (_misfit(other), number, words)
-        for number, (words, other) in enumerate(_others(sights, flange, targets))
+
+    def misfit(sights: Sights) -> float:
+        return min(start.misfit for start in starts(sights))
+
+    best, words = min(
+        ((misfit(other), words) for words, other in _others(sights, flange, targets)),
+        key=lambda pair: pair[0],
     )
-    if best < EXPLAINED * plain:
-        raise Mistaken(
-            f"the poses do not fit as they are read ({1e3 * remaining:.3g} mm remain), but they do"
-            f" ({1e3 * best:.3g} mm) if {words}"
-        )
+    remain = f"({1e3 * remaining:.3g} mm remain)"
+    if best < EXPLAINED * misfit(sights):
+        but = f"but they do ({1e3 * best:.3g} mm) if {words}"
+        raise Mistaken(f"the poses do not fit as they are read {remain}, {but}")
     if remaining > HOPELESS:
         raise Mistaken(
-            f"the poses do not fit: {1e3 * remaining:.3g} mm remain, in whatever direction and"
-            " convention they are read; are rows and pictures in the same order?"
+            f"the poses do not fit in any direction and convention {remain}; are rows and"
+            " pictures in the same order?"
         )
-
-
-def _misfit(sights: Sights) -> float:
-    """m, what the best closed form leaves."""
-    return min(start.misfit for start in starts(sights))
 
 
 def _others(
     sights: Sights, flange: PoseTable, targets: PoseTable | None
 ) -> Iterator[tuple[str, Sights]]:
     """Other ways to read the poses, in words, the simplest first."""
-    side = "fixed" if sights.in_hand else "on the hand"
-    option = "fixed" if sights.in_hand else "hand"
+    side, option = ("fixed", "fixed") if sights.in_hand else ("on the hand", "hand")
     direction = f"the camera is {side} (--camera {option}), or"
     direction += " the flange's poses are those of the base in it (--inverse flange)"
-    if targets is not None:
-        direction += ", or the target's are those of the camera in it (--inverse targets)"
     boards = [("", sights.board)]
     if targets is not None:
+        direction += ", or the target's are those of the camera in it (--inverse targets)"
         boards = [*_readings("target", "--target-convention", targets)]
     for theirs, board in boards:
         for own, poses in _readings("flange", "--convention", flange):
-            for flipped in (False, True):
+            for flipped, way in enumerate(("", direction)):
                 right = np.linalg.inv(poses) if flipped else poses
-                words = [*([direction] * flipped), *filter(None, (own, theirs))]
-                if words:
+                if words := [*filter(None, (way, own, theirs))]:
                     yield ", and ".join(words), replace(sights, flange=right, board=board)
 
 

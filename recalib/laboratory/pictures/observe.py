@@ -8,7 +8,6 @@ from dataclasses import replace
 from hashlib import sha256
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -25,7 +24,7 @@ from recalib.laboratory.pictures.observed import (
     doubt_of,
     views_of,
 )
-from recalib.laboratory.tables.table import read_table
+from recalib.laboratory.tables.table import Table, read_table
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import FEWEST as FEWEST_CORNERS
 from recalib.vision.detection import Unusable, find_corners, read_picture
@@ -35,18 +34,19 @@ from recalib.vision.views import board_pose, good_corners, reprojection
 
 ENOUGH = 10  # pictures
 SOFTER = 2.0  # times the median blur: so much more is a picture that moved or is out of focus
+DIGITS = re.compile(r"(\d+)")
 WORSE = 4.0  # times the median reprojection error
 
 
 def observe(
     folder: str | PathLike[str],
-    joints: str | PathLike[str],
+    joints: str | PathLike[str] | Table,
     board: str | PathLike[str],
     lens: str | PathLike[str] | None = None,
     in_hand: bool = False,
     on_progress: Callable[[str], None] = lambda line: None,
     camera: str = "camera",
-    ignored: Sequence[str] = (),
+    least: int = ENOUGH,
 ) -> Observed:
     """Find a board in pictures.
 
@@ -58,80 +58,49 @@ def observe(
         in_hand: whether the camera is on the hand.
         on_progress: called with what is being done, in a line each.
         camera: the name of the camera, among several.
-        ignored: columns that the table may have, in small letters.
+        least: how many pictures have to be of use.
 
     Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.
     """
     if not NAME.fullmatch(camera):
         raise InvalidSetting("--name", camera, "letters, digits, _ and -")
     given = None if lens is None else read_lens(lens)
-    sheet, table = read_board(board), read_table(joints)
-    cells = {name: own for name, own in table.cells.items() if name.lower() not in ignored}
-    table = replace(table, cells=cells)
+    sheet, table = read_board(board), joints if isinstance(joints, Table) else read_table(joints)
     if PICTURE not in table:
         raise InvalidFile(table.path, f"column {PICTURE!r} is missing: the name of each row's file")
     names = table.cells[PICTURE]
+    if twice := [name for name, count in Counter(names).items() if count > 1]:
+        raise InvalidFile(table.path, f"{twice[0]!r} is in more than one row")
     for name, unit in table.units.items():  # a joint without a number is refused before the search
         if quantity := next((kind for kind in (ANGLE, LENGTH) if unit in kind.units), None):
             table.numbers(name, quantity)
-    found = find_board(folder, names, table.path, sheet, given, on_progress)
-    named = "_".join(NAME.findall(Path(board).stem)) or "board"
-    return Observed(
-        table, sheet, found.own, given, in_hand, found.pictures, found.unlisted, camera, named
-    )
-
-
-class Found(NamedTuple):
-    """The lens by pictures, these in the order of their names, and the names of others."""
-
-    own: FoundLens
-    pictures: list[Picture]
-    unlisted: list[str]
-
-
-def find_board(
-    folder: str | PathLike[str],
-    names: Sequence[str],
-    table: Path,
-    board: Board,
-    given: Lens | None,
-    on_progress: Callable[[str], None],
-    least: int = ENOUGH,
-) -> Found:
-    """Find a board in the pictures of these names in a folder; see `observe`.
-
-    Args:
-        table: the file that names them, for messages.
-        least: how many of them have to be of use.
-    """
-    if twice := [name for name, count in Counter(names).items() if count > 1]:
-        raise InvalidFile(table, f"{twice[0]!r} is in more than one row")
     if not Path(folder).is_dir():
         raise InvalidFile(folder, "there is no such folder of pictures")
     on_progress(f"the board in {len(names)} pictures")
     pictures = [
-        _searched(Path(folder) / name, row, name, board) for row, name in enumerate(names, 1)
+        _searched(Path(folder) / name, row, name, sheet) for row, name in enumerate(names, 1)
     ]
     sizes = [picture.size for picture in pictures if picture.size]
     if not sizes:
-        raise InvalidFile(folder, f"none of the pictures in {table.name} can be read")
+        raise InvalidFile(folder, f"none of the pictures in {table.path.name} can be read")
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
     on_progress("the lens" if given is None else "poses")
-    own, pictures = _posed(_compared(pictures, size, given is not None), board, size, given, least)
+    compared = _compared(pictures, size, given is not None)
+    own, pictures = _posed(compared, sheet, size, given, least)
     listed = {os.path.abspath(Path(folder) / name) for name in names}
     others = [path.name for path in pictures_in(folder) if os.path.abspath(path) not in listed]
-    return Found(own, pictures, others)
+    named = "_".join(NAME.findall(Path(board).stem)) or "board"
+    return Observed(table, sheet, own, given, in_hand, pictures, others, camera, named)
 
 
 def pictures_in(folder: str | PathLike[str]) -> list[Path]:
     """The pictures in a folder by their names, with numbers as such: 2.png is before 10.png."""
-    paths = (path for path in Path(folder).iterdir() if cv2.haveImageReader(str(path)))
-
-    def by_numbers(path: Path) -> list[tuple[int, str]]:
-        parts = re.split(r"(\d+)", path.name)
-        return [(int(part), "") if part.isdecimal() else (0, part) for part in parts]
-
-    return sorted(paths, key=by_numbers)
+    return sorted(
+        (path for path in Path(folder).iterdir() if cv2.haveImageReader(str(path))),
+        key=lambda path: [
+            int(part) if part.isdecimal() else part for part in DIGITS.split(path.name)
+        ],
+    )
 
 
 def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
@@ -178,11 +147,7 @@ def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool)
 
 
 def _posed(
-    pictures: list[Picture],
-    board: Board,
-    size: tuple[int, int],
-    given: Lens | None,
-    least: int,
+    pictures: list[Picture], board: Board, size: tuple[int, int], given: Lens | None, least: int
 ) -> tuple[FoundLens, list[Picture]]:
     """The lens by the pictures, and these with their poses; those that fit badly are refused."""
     while True:
