@@ -2,7 +2,11 @@
 
 import re
 import tomllib
+from contextlib import redirect_stderr
 from dataclasses import replace
+from io import StringIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 import numpy as np
@@ -20,6 +24,7 @@ from tests.vision.hand_eye_cells import HandEyeCell, turned
 from tests.vision.rendering import Cell
 
 POSES = 20
+WAYS = "ros", "ur", "abb", "kuka", "fanuc", "staubli", "ZYZ", "xyx", "YXZ"
 SIDES = {True: "hand", False: "fixed"}
 
 
@@ -116,9 +121,7 @@ def test_frames_do_not_matter(seed, in_hand, moved_base):
     assert other.accuracy == pytest.approx(one.accuracy, rel=0.1)
 
 
-@pytest.mark.parametrize(
-    "way", ["ros", "ur", "abb", "kuka", "fanuc", "staubli", "ZYZ", "xyx", "YXZ"]
-)
+@pytest.mark.parametrize("way", WAYS)
 def test_conventions(way, tmp_path):
     rng = np.random.default_rng(5)
     poses = turned(rng.normal(size=(9, 3)), rng.normal(size=(9, 3)))
@@ -238,25 +241,41 @@ def about_one_axis(cell: HandEyeCell) -> np.ndarray:
     return flange
 
 
-@pytest.mark.parametrize("in_hand", [False, True])
-@pytest.mark.parametrize(
-    ("poses", "message"),
-    [
-        (alike, "all poses are turned alike"),
-        (about_one_axis, "all turns are about one axis"),
-        (lambda cell: cell.flange(3), "3 poses can be used; expected: at least 6"),
-    ],
-)
-def test_what_poses_do_not_determine_is_named(in_hand, poses, message, tmp_path, capsys):
-    cell = HandEyeCell(7, in_hand, rotation=np.radians(0.02))
-    flange = poses(cell)
-    for name, given_ in (("poses", cell.said(flange)), ("targets", cell.seen(flange))):
-        (tmp_path / f"{name}.txt").write_text(written(given_))
-    inputs = ["--poses", str(tmp_path / "poses.txt"), "--targets", str(tmp_path / "targets.txt")]
-    ways = ["--convention", "ros", "--target-convention", "ros", "--camera", SIDES[in_hand]]
-    assert main(["calibrate", *inputs, *ways, "--out", str(tmp_path / "out")]) == REFUSED
-    assert message in (error := capsys.readouterr().err)
-    assert error.count("\n") == 1 + error.count("\n...") + error.startswith("...")
+FAULTS = {  # what is done to poses of the flange, true ones and (n, 4, 4); what is said
+    "one axis": (about_one_axis, None, "all turns are about one axis"),
+    "alike": (alike, None, "all poses are turned alike"),
+    "too few": (lambda cell: cell.flange(4), None, "4 poses can be used; expected: at least 6"),
+    "direction": (None, np.linalg.inv, "the flange's poses are those of the base in it"),
+    "board size": (None, lambda said: scaled(said, 1.05), "larger than described"),
+    "millimetres as metres": (None, lambda said: scaled(said, 1e3), "Is its unit right?"),
+    "metres as millimetres": (None, lambda said: scaled(said, 1e-3), "in metres labelled mm"),
+}
+
+
+def scaled(poses: np.ndarray, scale: float) -> np.ndarray:
+    """Poses with other positions."""
+    poses = poses.copy()
+    poses[:, :3, 3] *= scale
+    return poses
+
+
+@given(st.sampled_from([*FAULTS]), st.integers(0, 10_000), st.booleans(), st.sampled_from(WAYS))
+@settings(max_examples=25, deadline=None)
+def test_what_cannot_be_is_named_in_one_sentence(fault, seed, in_hand, way):
+    """In generated cells, by the pose tables of every controller."""
+    drawn, change, message = FAULTS[fault]
+    cell = HandEyeCell(seed, in_hand, rotation=np.radians(0.02))
+    flange = drawn(cell) if drawn else cell.flange(POSES)
+    said = cell.said(flange)
+    with TemporaryDirectory() as folder, redirect_stderr(StringIO()) as stderr:
+        poses, targets = Path(folder, "poses.txt"), Path(folder, "targets.txt")
+        poses.write_text(written(change(said) if change else said, way))
+        targets.write_text(written(cell.seen(flange)))
+        inputs = ["--poses", str(poses), "--convention", way, "--targets", str(targets)]
+        where = ["--target-convention", "ros", "--camera", SIDES[in_hand]]
+        code = main(["calibrate", *inputs, *where, "--out", str(Path(folder, "out"))])
+    lines = [line for line in stderr.getvalue().splitlines() if not line.startswith("...")]
+    assert code == REFUSED and len(lines) == 1 and message in lines[0], lines
 
 
 @pytest.mark.parametrize("in_hand", [False, True])

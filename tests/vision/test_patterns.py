@@ -1,6 +1,6 @@
 """Boards that others print, in pictures that are drawn here as those programs lay them out."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -144,11 +144,14 @@ def test_corners_are_where_another_program_drew_them(board, sheet, pose):
 
 
 @pytest.mark.parametrize("half_turn", [False, True])
-def test_a_chessboard_is_known_upside_down(half_turn):
-    """By the colour of its first square, if numbers of squares are odd and even."""
+@pytest.mark.parametrize(("columns", "rows"), [(9, 6), (6, 9), (8, 6), (7, 5)])
+def test_a_chessboard_is_known_upside_down(columns, rows, half_turn):
+    """By the colour of its first square, if one number of squares is odd; else it is upright."""
     pose = POSES[0] @ frame([0, 0, np.pi * half_turn], [0, 0, 0])
-    board, sheet = SHEETS["chessboard"]
-    true = pose @ frame([0, 0, 0], [-side / 2 for side in sheet.size] + [0])
+    board = Board("chessboard", columns, rows, 0.025)
+    sheet = chessboard(board)
+    upright = (columns + rows) % 2 == 0
+    true = (POSES[0] if upright else pose) @ frame([0, 0, 0], [-s / 2 for s in sheet.size] + [0])
     found = board_pose(board, LENS, find_corners(board, sheet.picture(pose)))
     assert np.abs(found - true).max() < 5e-3
 
@@ -156,10 +159,15 @@ def test_a_chessboard_is_known_upside_down(half_turn):
 @pytest.mark.parametrize("name", SHEETS)
 def test_a_mirrored_print_of_markers_is_named(name):
     board, sheet = SHEETS[name]
-    picture = np.ascontiguousarray(np.fliplr(sheet.picture(POSES[0])))
+    sheet = replace(sheet)
+    sheet.ink = np.ascontiguousarray(np.fliplr(SHEETS[name][1].ink))
+    picture = sheet.picture(POSES[0])
     if board.marker:
         with pytest.raises(Unusable, match="it is mirrored"):
             find_corners(board, picture)
+    else:  # it is the same board, turned
+        found = find_corners(board, picture)
+        assert reprojection(board, LENS, found, board_pose(board, LENS, found)).std() < 0.1
 
 
 @pytest.mark.parametrize("name", ["chessboard", "circles"])
