@@ -11,10 +11,15 @@ import pytest
 pytest.importorskip("cv2", reason="needs OpenCV, of the extra `vision`")
 
 import cv2
+import rerun as rr
+from watched_pictures import ShownPictures
 
 from recalib import StationFailed
 from recalib.station.opening import open_station
+from recalib.vision.views import projected
 from tests.conftest import ROOT
+from tests.logged import logged
+from tests.vision.hand_eye_cells import HandEyeCell
 
 STATIONS = ROOT / "examples" / "stations"
 GOAL = np.array([0.2, -1.0, 1.1, -0.4, 0.3, 0.1])
@@ -229,3 +234,24 @@ def test_stop_ends_a_move_from_another_thread(station, arm):
         station.move(GOAL * 40, 0.5)
     assert np.abs(arm.now()).max() < np.abs(GOAL * 40).max() / 2
     station.stop()
+
+
+def test_a_picture_is_shown_with_its_corners_and_what_they_are_off_by(tmp_path):
+    """Each arrow begins at a corner, and is a hundred times as long as its error."""
+    cell = HandEyeCell(3, True)
+    (pose,) = cell.seen(cell.flange(1))
+    grey = cell.draw(pose)
+    cv2.imwrite(str(tmp_path / "seen.png"), grey)
+    with rr.RecordingStream("live") as rec:
+        rec.save(tmp_path / "live.rrd")
+        shown = ShownPictures(rec, cell.board, cell.lens, True)
+        assert shown.search(str(tmp_path / "seen.png"), grey)
+    values = logged(tmp_path / "live.rrd")
+    (corners,) = values["/picture/off Arrows2D:origins"]
+    (arrows,) = values["/picture/off Arrows2D:vectors"]
+    true, _ = projected(cell.board.points, cell.lens, pose)
+    assert np.abs(corners.reshape(-1, 2) - true).max() < 0.5
+    off = np.hypot(*arrows.reshape(-1, 2).T) / 100
+    assert 0.005 < np.sqrt(np.mean(off**2)) < 0.2
+    (label,) = values["/picture/size Points2D:labels"]
+    assert label[1] == f"{np.sqrt(np.mean(off**2)):.2f} px off"
