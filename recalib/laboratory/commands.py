@@ -19,11 +19,11 @@ from recalib.laboratory.hand_eye.conventions import convention_of
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
-from recalib.laboratory.report.folder import files_of, poses_table, postures_table
+from recalib.laboratory.report.folder import files_of, pose_rows, postures_table
 from recalib.laboratory.tables.columns import TARGETS
 from recalib.laboratory.tables.description import within
 from recalib.laboratory.tables.measurements import STILL, read_desired
-from recalib.laboratory.tables.table import read_table
+from recalib.laboratory.tables.table import read_table, table_text
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
 from recalib.spelling import counted, listed
@@ -212,7 +212,7 @@ def next_poses(options: Options) -> int:
     cone = ANGLE.value_of("--cone", options.cone)
     propose_poses = _hand_eye("proposing").propose_poses
     poses, deviations = propose_poses(options.calibration, options.count, box, cone)
-    write_new(options.out, poses_table(poses), ".csv")
+    write_new(options.out, table_text(pose_rows(poses)), ".csv")
     before, after = 1e3 * deviations[[0, -1]]
     print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
     print(f"They would reduce the camera's deviation from {before:.3g} mm to {after:.3g} mm.")

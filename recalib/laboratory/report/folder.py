@@ -66,11 +66,6 @@ def postures_table(arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool =
     return table_text(row | pose for row, pose in zip(own, pose_rows(poses, fake), strict=True))
 
 
-def poses_table(poses: np.ndarray) -> bytes:
-    """Poses (n, 4, 4) [m] alone, likewise."""
-    return table_text(pose_rows(poses))
-
-
 def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]:
     """The cells of poses (n, 4, 4) [m] by their headings; see `postures_table`."""
     kinds = (FAKE_POSITIONS, FAKE_ROTATIONS) if fake else (POSITIONS, ROTATION_VECTORS)
