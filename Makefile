@@ -90,8 +90,8 @@ elsewhere: dist ## unpack the released sources elsewhere, and run make test and 
 
 lowest: tools ## the library's tests with the lowest versions that pyproject.toml allows
 	$(ELSEWHERE) && $(UV) venv --python .venv/bin/python "$$folder" && \
-	  $(UV) pip install --python "$$folder" --resolution lowest-direct .[laboratory,study,dev] && \
-	  "$$folder/bin/python" -m pytest -m "not slow" $(addprefix tests/,damaged identification laboratory learners nominal)
+	  $(UV) pip install --python "$$folder" --resolution lowest-direct .[laboratory,study,vision,dev] && \
+	  "$$folder/bin/python" -m pytest -m "not slow" $(addprefix tests/,damaged identification laboratory learners nominal vision/test_boards.py vision/test_patterns.py)
 
 slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults; says what is missing for it
 	.venv/bin/python -m pytest -n0 -rs tests/slurm

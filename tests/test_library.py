@@ -42,6 +42,35 @@ def test_an_unknown_name_is_no_attribute():
         from recalib import trian  # noqa: F401
 
 
+def test_the_three_lines_for_an_arm_of_ones_own_reduce_its_errors(monkeypatch, tmp_path, capsys):
+    """Those of docs/library.md, with a UR10 whose encoders are off by half degrees as one's own."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(find_urdf("ur10_robot.urdf"), "my_arm.urdf")
+    blocks = re.findall(
+        r"^```python\n(.*?)^```", (ROOT / "docs/library.md").read_text(), re.MULTILINE | re.DOTALL
+    )
+    identify, learn = (block for block in blocks if "my_arm.urdf" in block)
+    assert max(block.count("\n") for block in (identify, learn)) == 3
+    arm, rng = recalib.load_arm("my_arm.urdf", "tool0"), np.random.default_rng(47)
+    offsets = np.radians([0.0, 0.5, -0.5, 0.5, -0.5, 0.0])
+    joints = rng.uniform(-1, 1, (30, 6)) + np.array([0, -1, 2, -2, -1.6, 0])
+    positions = arm.forward(joints + offsets)[:, :3, 3]
+    names = {name: getattr(recalib, name) for name in recalib.__all__}
+    exec(identify, names | {"joints": joints, "positions": positions})
+    assert "mm" in capsys.readouterr().out
+    home = dict(zip(arm.joints, np.array([0, -1.4, 2.1, -2.9, -1.57, 0]), strict=True))
+    robot = recalib.load_robot("my_arm.urdf", "tool0", home, [0.3] * 3, [0.6] * 3)
+    controller = recalib.Controller(robot)
+
+    def move(pose):
+        return arm.forward(controller.inverse(pose[None]) + offsets)[0]
+
+    names |= {"home": home, "move": move, "rng": rng}
+    exec(learn, names)
+    first, last = names["history"].position_error
+    assert first > 5e-3 and last < 1e-6  # m: the learner's model holds the errors of this arm
+
+
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.py")), ids=lambda its: its.stem)
 def test_an_example_needs_the_public_names_alone(path):
     for node in ast.walk(ast.parse(path.read_text())):

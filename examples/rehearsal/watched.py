@@ -2,6 +2,8 @@
 
 python examples/rehearsal/watched.py examples/station.py:BentUR10 ur10_robot.urdf tool0
 
+With a camera: watched_pictures.py.
+
 Each point of the workspace is the tool in an allowed posture. It is orange where the predicted
 error is as large as it ever was, and blue where it is gone.
 """
@@ -24,7 +26,9 @@ from recalib.station.opening import open_station
 SURE, UNSURE = np.array([0, 114, 178]), np.array([213, 94, 0])
 PANELS = rrb.Blueprint(
     rrb.Vertical(
-        rrb.Spatial3DView(origin="/", name="the arm", contents=["+ /**", "- /error/**"]),
+        rrb.Spatial3DView(
+            origin="/", name="the arm", contents=["+ /**", "- /error/**", "- /picture/**"]
+        ),
         rrb.TimeSeriesView(origin="error", name="predicted error [mm]"),
         row_shares=[3, 1],
     ),

@@ -2,23 +2,28 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import check_new, write_new
+from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
+from recalib.laboratory.hand_eye.conventions import convention_of
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
-from recalib.laboratory.report.folder import files_of, postures_table
+from recalib.laboratory.report.folder import files_of, pose_rows, postures_table
 from recalib.laboratory.tables.columns import TARGETS
+from recalib.laboratory.tables.description import within
 from recalib.laboratory.tables.measurements import STILL, read_desired
+from recalib.laboratory.tables.table import read_table, table_text
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
 from recalib.spelling import counted, listed
@@ -33,7 +38,19 @@ def _load(module: str, name: str) -> Any:
 
 
 def calibrate(options: Options) -> int:
-    """Write a folder of results from a table, or from folders of pictures."""
+    """Write a folder of results from a table, from folders of pictures, or from flange poses."""
+    if options.poses is not None:
+        if options.urdf is None:
+            return calibrate_poses(options)
+        options.measurements = [_observed(options)]
+    if not options.measurements:
+        valid = "URDF and a table, or --poses and --pictures"
+        raise InvalidSetting("measurements", None, valid)
+    return calibrate_rows(options)
+
+
+def calibrate_rows(options: Options) -> int:
+    """Write a folder of results of an arm, from a table or from folders of pictures."""
     page_of = _load("laboratory.report.page", "page_of")
     paths: list[Path] = options.measurements
     folders = [path for path in paths if path.is_dir()]
@@ -58,6 +75,45 @@ def calibrate(options: Options) -> int:
     return DONE if result.worthwhile else NO_BETTER
 
 
+def calibrate_poses(options: Options) -> int:
+    """Write a folder of where camera and board are, without a URDF."""
+    if (options.pictures is None) == (options.targets is None):
+        raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
+    calibrating, inverse = _hand_eye("calibrating"), options.inverse or ()
+    read_poses, in_hand = _hand_eye("pose_table").read_poses, options.camera == "hand"
+    flange = read_poses(options.poses, options.convention, options.unit, "flange" in inverse)
+    if options.targets is None:
+        given = options.pictures, options.board, options.lens, in_hand, print_progress
+        shown = calibrating.pictures_at(flange, *given)
+    else:
+        own = options.target_convention, options.unit, "targets" in inverse
+        shown = read_poses(options.targets, *own)
+    height = options.height and within("--height", options.height, LENGTH, 1e-4)
+    result = calibrating.calibrate_poses(flange, shown, in_hand, height, print_progress)
+    files = result.files()
+    write_new(options.out, files)
+    print(result.summary(), end="")
+    print(f"\n{options.out}: {', '.join(files)}")
+    return DONE if result.good else NO_BETTER
+
+
+def _hand_eye(module: str) -> Any:
+    """A module that needs OpenCV."""
+    return import_module(f"recalib.laboratory.hand_eye.{module}")
+
+
+def _observed(options: Options) -> Path:
+    """The folder, written next to the output, of what pictures show with the joints of a table."""
+    if options.pictures is None:
+        raise InvalidSetting("--pictures", None, "a folder of pictures; without a URDF, --targets")
+    folder, table = Path(f"{options.out}_observed"), read_table(options.poses)
+    own = convention_of(options.convention).headings if options.convention else ()
+    cells = {name: cells for name, cells in table.cells.items() if name.lower() not in own}
+    given = {"joints": replace(table, cells=cells), "name": "camera", "out": folder}
+    observe(Options(**vars(options) | given))
+    return folder
+
+
 def live(options: Options) -> int:
     """Move and measure, then calibrate by all rows."""
     observed = Path(options.out).with_name(f"{Path(options.out).name}_observed")
@@ -78,7 +134,7 @@ def live(options: Options) -> int:
         pictures = {"pictures": Path("."), "joints": options.table, "name": "camera", "lens": None}
         observe(Options(**vars(options) | pictures | {"out": observed}))
         options.measurements = [observed]
-    return calibrate(options)
+    return calibrate_rows(options)
 
 
 def correct(options: Options) -> int:
@@ -127,7 +183,9 @@ def correct(options: Options) -> int:
 
 
 def next_(options: Options) -> int:
-    """Write the most informative postures."""
+    """Write the most informative postures, or poses of a flange."""
+    if options.poses:
+        return next_poses(options)
     correction = load_correction(options.calibration)
     candidates: np.ndarray | Goals | None = None
     if options.candidates is not None:
@@ -145,6 +203,19 @@ def next_(options: Options) -> int:
         f"They would reduce the uncertainty of predicted positions from {before:.3g} mm to"
         f" {after:.3g} mm" + ("." if proposal.worthwhile else ": more rows are not worthwhile.")
     )
+    return DONE
+
+
+def next_poses(options: Options) -> int:
+    """Write the poses of a flange that tell most of a camera's place."""
+    box = None if options.box is None else _load("laboratory.live.allowed", "Box").read(options.box)
+    cone = ANGLE.value_of("--cone", options.cone)
+    propose_poses = _hand_eye("proposing").propose_poses
+    poses, deviations = propose_poses(options.calibration, options.count, box, cone)
+    write_new(options.out, table_text(pose_rows(poses)), ".csv")
+    before, after = 1e3 * deviations[[0, -1]]
+    print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
+    print(f"They would reduce the camera's deviation from {before:.3g} mm to {after:.3g} mm.")
     return DONE
 
 
@@ -211,6 +282,7 @@ def observe(options: Options) -> int:
     find_boards = _load("laboratory.pictures.observe", "observe")
     page_of_pictures = _load("laboratory.pictures.page_of_pictures", "page_of_pictures")
     pictures = options.pictures, options.joints, options.board, options.lens
+    check_new(options.out, folder=True)
     result = find_boards(*pictures, options.camera == "hand", print_progress, options.name)
     write_new(options.out, result.files() | {"page.html": page_of_pictures(result)})
     print(result.summary(), end="")

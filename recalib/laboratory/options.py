@@ -16,6 +16,7 @@ FOLDERS = "calibrate", "live", "board", "observe"  # commands that write a folde
 DONE, REFUSED, NO_BETTER = 0, 1, 3
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no improvement."
 URDF = "URDF file, or the name of an arm of example-robot-data"
+WAYS = "ur, abb, kuka, fanuc, staubli, ros, matrix"
 CALIBRATION = "folder of calibrate, or its correction.npz"
 
 
@@ -54,6 +55,8 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         own.add("--out", f"new {kind} to write", Path, out)
         return own
 
+    where = "where the camera is (default: fixed)"
+
     def add_arm(own: Parser) -> None:
         own.add("--tool", "tool link; needed only if the arm has several ends", _name)
         own.add("--base", "link whose frame poses are given in (default: the root)", _name)
@@ -65,14 +68,30 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own = add(
         "calibrate", "identify the arm's parameters from measurements", "calibration", _columns()
     )
-    own.add("urdf", URDF, _name)
+    own.add_argument("urdf", type=_name, nargs="?", help=f"{URDF}; not needed with --poses")
     own.add_argument(
         "measurements",
         type=_path,
-        nargs="+",
+        nargs="*",
         help="table (CSV), or folders from recalib observe, one for each camera",
     )
     add_arm(own)
+    group = own.add_argument_group("hand-eye calibration, without a URDF: see docs/poses.md")
+    for name, kind, default, text in (
+        ("--poses", _path, None, "table of the flange's poses in the base"),
+        ("--pictures", _path, None, "folder of the board's pictures, one for each pose"),
+        ("--targets", _path, None, "or: table of the target's poses in the camera"),
+        ("--board", _path, "board/board.toml", "description of the board (default: %(default)s)"),
+        ("--lens", _path, None, "lens calibration (default: estimated)"),
+        ("--convention", str, None, f"of rotations: {WAYS}, or an order such as ZYZ or xyz"),
+        ("--target-convention", str, None, "likewise, of the target's poses"),
+        ("--height", str, None, "of the board, if the arm turns about one axis: '31 cm +- 1 mm'"),
+    ):
+        group.add_argument(name, type=kind, default=default, help=text)
+    group.add_argument("--camera", choices=CAMERAS, default="fixed", help=where)
+    group.add_argument("--unit", choices=LENGTH.units, help="of positions without a unit")
+    text = "this table has the inverse poses: of the base in the flange, of the camera in it"
+    group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
 
     text = "move, measure and calibrate until the predicted error is small enough"
     own = add("live", text, "calibration")
@@ -92,7 +111,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add_argument("--no-self-collision", action="store_true", help="allow links near each other")
     own.add("--board", "board (TOML) in the pictures that the station measures", _path)
     own.add("--lens", "lens calibration (YAML), with --board", _path)
-    own.add_argument("--camera", choices=CAMERAS, help="where the camera is (default: fixed)")
+    own.add_argument("--camera", choices=CAMERAS, help=where)
     own.add_argument("--yes", action="store_true", help="move without asking")
     own.add("--table", "new, or begun by live", _path, "measurements.csv")
     add_arm(own)
@@ -114,6 +133,11 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     candidates = "postures to choose from (CSV; default: drawn at random)"
     own.add_argument("candidates", type=_path, nargs="?", help=candidates)
     own.add("--count", "number of postures", _positive, 10)
+    text = "propose flange poses, by a folder of calibrate --poses"
+    own.add_argument("--poses", action="store_true", help=text)
+    text = "with --poses: ranges of the flange's position: '-40 cm to 40 cm' ..."
+    own.add_argument("--box", nargs=3, metavar=("X", "Y", "Z"), help=text)
+    own.add("--cone", "with --poses: of lines of sight about the board's normal", str, "45 deg")
 
     own = add("urdf", "write a URDF from Denavit-Hartenberg parameters", "arm.urdf")
     own.add("links", "table (CSV): joint, a, alpha, d, theta, kind", _path)
@@ -129,7 +153,6 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add("joints", "table (CSV) of joint coordinates, with a column picture", _path)
     own.add("--board", "description of the board", _path, "board/board.toml")
     own.add("--lens", "lens calibration (YAML; default: estimated)", _path)
-    where = "where the camera is (default: fixed)"
     own.add_argument("--camera", choices=CAMERAS, default="fixed", help=where)
     own.add("--name", "name of the camera, if there are several", str, "camera")
 

@@ -6,13 +6,16 @@ calibrated arm has one of all solutions that fit: relative to it, the instrument
 certain as its measurements. Relative to the real base, it is as uncertain as the offset's prior.
 """
 
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.identifiability import Unidentifiable
+from recalib.identification.hand_eye import HandEye
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import HELD, Frames
 from recalib.identification.model.linearisation import displacements
@@ -52,6 +55,35 @@ class Place:
         """Roll, pitch and yaw (3,) [deg], as a URDF has them."""
         return np.degrees(angles_of(self.pose))
 
+    @property
+    def rotation(self) -> Rotation:
+        """As SciPy has it."""
+        return Rotation.from_matrix(self.pose[:3, :3])
+
+    @property
+    def frame(self) -> str:
+        """The name as TOML and ROS take it."""
+        return self.name.removeprefix("the ").replace(" ", "_")
+
+    @property
+    def ros(self) -> str:
+        """The command of ROS 2 that publishes it."""
+        names = "x", "y", "z", "qx", "qy", "qz", "qw"
+        numbers = zip(names, [*self.position, *self.rotation.as_quat(canonical=True)], strict=True)
+        given = " ".join(f"--{name} {number:.7f}" for name, number in numbers)
+        frames = f"--frame-id {shlex.quote(self.link)} --child-frame-id {self.frame}"
+        return f"ros2 run tf2_ros static_transform_publisher {given} {frames}"
+
+    @property
+    def urdf(self) -> str:
+        """A fixed joint."""
+        ends = self.position, np.radians(self.degrees)
+        xyz, rpy = (" ".join(f"{number:.7f}" for number in numbers) for numbers in ends)
+        return (
+            f'<joint name="{self.frame}_joint" type="fixed"><origin xyz="{xyz}" rpy="{rpy}"/>'
+            f'<parent link="{self.link}"/><child link="{self.frame}"/></joint>'
+        )
+
 
 def found_places(
     calibration: Calibration,
@@ -88,6 +120,18 @@ def found_places(
         Place(*one, pose, *(_deviations(slope @ spread @ slope.T) for spread in (own, real)))
         for one, pose, slope in zip(what, poses, slopes, strict=True)
     ]
+
+
+def hand_eye_places(
+    found: HandEye, names: Sequence[str], links: Sequence[str]
+) -> tuple[Place, Place]:
+    """A camera and a board by their names, in the links' frames, by a hand-eye calibration."""
+    pairs = zip(names, links, (found.camera, found.board), strict=True)
+    camera, board = (
+        Place(name, link, True, pose, *[found.deviations(part)] * 2)
+        for part, (name, link, pose) in enumerate(pairs)
+    )
+    return camera, board
 
 
 def _has_instrument(frames: Frames) -> bool:

@@ -1,22 +1,34 @@
 """Boards of markers that a camera can measure, and the TOML that describes them."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
+import yaml
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import LENGTH
+from recalib.files.storage import read_file
 from recalib.files.toml import read_toml
+from recalib.spelling import listed
 
-CHARUCO, APRILTAG = KINDS = "charuco", "apriltag"
+CHARUCO, APRILTAG, APRILGRID, CHESSBOARD, CIRCLES = KINDS = (
+    *("charuco", "apriltag", "aprilgrid", "chessboard", "circles"),
+)
+PLAIN = CHESSBOARD, CIRCLES  # without markers: they have to be seen as a whole
+SHAPE = "kind", "columns", "rows", "square"
+MARKERS = "marker", "dictionary", "first_id"
+LENGTHS = "square", "marker"
+KALIBR = {"aprilgrid": APRILGRID, "checkerboard": CHESSBOARD, "circlegrid": CIRCLES}
 DICTIONARY = "4X4_100"  # of the boards that we print
-BORDER = 1  # modules of black around the bits of a marker
+BORDER = 1  # modules of black around the bits of a marker; of Kalibr's, 2
 WHITE = 2  # modules of white in a square, or between tags
+MOST = 100_000  # bytes of a file
 SMALLEST, LARGEST = 1e-3, 1.0  # m, of a square
 
 
@@ -25,37 +37,48 @@ class Board:
     """A flat board. Its x axis goes along a row and its y axis down, so that z points into it.
 
     Attributes:
-        kind: charuco or apriltag.
-        columns, rows: of squares, or of tags.
-        square: m, the side of a square, or from a tag to the next.
-        marker: m, the side of a marker.
-        dictionary: that of OpenCV, without `DICT_`.
+        kind: one of `KINDS`: squares with markers in the white ones, a grid of tags, Kalibr's grid
+            of tags with black squares between them, plain squares, an asymmetric grid of circles.
+        columns, rows: of squares, or of tags; of circles, as OpenCV counts them: (4, 11).
+        square: m, the side of a square, or from a tag to the next; from a row of circles to the
+            next.
+        marker: m, the side of a marker; 0 without any.
+        dictionary: that of OpenCV, without `DICT_`; empty likewise.
+        first_id: the number of the first marker.
     """
 
     kind: str
     columns: int
     rows: int
     square: float
-    marker: float
-    dictionary: str
+    marker: float = 0.0
+    dictionary: str = ""
+    first_id: int = 0
 
     def __post_init__(self) -> None:
         """Raise InvalidSetting unless there can be such a board."""
         if self.kind not in KINDS:
-            raise InvalidSetting("kind", self.kind, " or ".join(KINDS))
+            raise InvalidSetting("kind", self.kind, listed(KINDS, "or"))
         for name in ("columns", "rows"):
             if not isinstance(getattr(self, name), int) or not 2 <= getattr(self, name) <= 50:
                 raise InvalidSetting(name, getattr(self, name), "a whole number from 2 to 50")
         if not SMALLEST <= self.square <= LARGEST:
             valid = f"from {1e3 * SMALLEST:g} mm to {LARGEST:g} m"
             raise InvalidSetting("square", f"{1e3 * self.square:g} mm", valid)
+        if self.kind not in PLAIN:
+            self._check_markers()
+
+    def _check_markers(self) -> None:
         if not 0 < self.marker < self.square:
             raise InvalidSetting("marker", f"{1e3 * self.marker:g} mm", "less than the square")
         if not hasattr(cv2.aruco, f"DICT_{self.dictionary}"):
             raise InvalidSetting("dictionary", self.dictionary, "one of OpenCV, such as 4X4_100")
-        if self.markers > (most := len(self.alphabet.bytesList)):
+        most = len(self.alphabet.bytesList)
+        if not isinstance(self.first_id, int) or not 0 <= self.first_id < most:
+            raise InvalidSetting("first_id", self.first_id, f"a whole number from 0 to {most - 1}")
+        if self.first_id + self.markers > most:
             found = f"{self.columns} x {self.rows}, with {self.markers} markers"
-            valid = f"at most {most} markers: {self.dictionary} has no more"
+            valid = f"at most {most - self.first_id} markers: {self.dictionary} has no more"
             raise InvalidSetting("columns x rows", found, valid)
 
     @property
@@ -70,18 +93,36 @@ class Board:
 
     @cached_property
     def drawn(self) -> Any:
-        """OpenCV's own board."""
+        """OpenCV's own board, of squares or tags."""
         size, alphabet = (self.columns, self.rows), self.alphabet
+        numbers = self.first_id + np.arange(self.markers)
         if self.kind == CHARUCO:
-            return cv2.aruco.CharucoBoard(size, self.square, self.marker, alphabet)
-        return cv2.aruco.GridBoard(size, self.marker, self.square - self.marker, alphabet)
+            return cv2.aruco.CharucoBoard(size, self.square, self.marker, alphabet, numbers)
+        return cv2.aruco.GridBoard(size, self.marker, self.square - self.marker, alphabet, numbers)
 
     @cached_property
     def points(self) -> np.ndarray:
         """Where the corners (c, 3) [m] are that are looked for, by their numbers."""
-        inner = self.kind == CHARUCO
-        corners = self.drawn.getChessboardCorners() if inner else self.drawn.getObjPoints()
-        return np.array(corners, dtype=float).reshape(-1, 3)
+        if self.kind == CHARUCO:
+            return np.array(self.drawn.getChessboardCorners(), dtype=float).reshape(-1, 3)
+        down, across = np.mgrid[: self.rows, : self.columns]
+        if self.kind == CIRCLES:
+            across = 2 * across + down % 2
+        flat = self.square * np.stack([across, down], axis=-1)
+        if self.kind == CHESSBOARD:
+            flat = flat[1:, 1:]
+        elif self.kind != CIRCLES:
+            flat = self.tags
+        return np.pad(flat.reshape(-1, 2), ((0, 0), (0, 1)))
+
+    @cached_property
+    def tags(self) -> np.ndarray:
+        """Corners (m, 4, 2) [m] of markers from `first_id` on, clockwise from the upper left."""
+        corners = np.array(self.drawn.getObjPoints(), dtype=float)[..., :2]
+        if self.kind != APRILGRID:
+            return corners
+        grid = corners.reshape(self.rows, self.columns, 4, 2)  # Kalibr counts from the lowest row
+        return grid[::-1].reshape(-1, 4, 2)
 
     @property
     def modules(self) -> np.ndarray:
@@ -95,15 +136,15 @@ class Board:
     @property
     def size(self) -> np.ndarray:
         """Width and height [m]."""
-        gap = 0.0 if self.kind == CHARUCO else self.square - self.marker
+        gap = self.square - self.marker if self.kind in (APRILTAG, APRILGRID) else 0.0
         return self.square * np.array([self.columns, self.rows]) - gap
 
     def described(self) -> str:
         """The part of a TOML that `read_board` reads."""
-        lengths = {name: f'"{1e3 * getattr(self, name):.6g} mm"' for name in ("square", "marker")}
+        lengths = {name: f'"{1e3 * getattr(self, name):.6g} mm"' for name in LENGTHS}
         lines = [
-            f"{part.name} = {lengths.get(part.name) or repr(getattr(self, part.name))}"
-            for part in fields(self)
+            f"{name} = {lengths.get(name) or repr(getattr(self, name))}"
+            for name in (SHAPE if self.kind in PLAIN else SHAPE + MARKERS)
         ]
         return "\n".join(["[board]", *lines, ""]).replace("'", '"')
 
@@ -119,17 +160,47 @@ def printable(columns: int, rows: int, square: float) -> Board:
 
 
 def read_board(path: str | PathLike[str]) -> Board:
-    """The board in the TOML at `path`. Raises InvalidFile, which names the key."""
+    """The board in the TOML at `path`, or in Kalibr's YAML. Raises InvalidFile, with the key."""
+    if Path(path).suffix in (".yaml", ".yml"):
+        return _board_of_kalibr(path)
     return board_in(read_toml(path), path)
 
 
 def board_in(parts: Mapping[str, Any], path: str | PathLike[str]) -> Board:
     """The board in what was read of a TOML; its path is for messages. Raises InvalidFile."""
-    given, names = parts.get("board"), [part.name for part in fields(Board)]
+    given = parts.get("board")
     try:
-        if not isinstance(given, dict) or sorted(given) != sorted(names):
-            raise InvalidSetting("[board]", given, ", ".join(names))
-        lengths = {name: LENGTH.value_of(name, given[name]) for name in ("square", "marker")}
-        return Board(**given | lengths | {"dictionary": str(given["dictionary"]).upper()})
+        plain = isinstance(given, dict) and given.get("kind") in PLAIN
+        names = {*SHAPE} if plain else {*SHAPE, *MARKERS}
+        if not isinstance(given, dict) or {*given} not in (names, names - {"first_id"}):
+            raise InvalidSetting("[board]", given, ", ".join(SHAPE if plain else SHAPE + MARKERS))
+        lengths = {name: LENGTH.value_of(name, given[name]) for name in LENGTHS if name in given}
+        dictionary = str(given.get("dictionary", "")).upper()
+        return Board(**given | lengths | {"dictionary": dictionary})
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
+
+
+def _board_of_kalibr(path: str | PathLike[str]) -> Board:
+    """The target in a YAML of Kalibr. Raises InvalidFile."""
+    try:
+        given = yaml.safe_load(read_file(path, MOST))
+        kind = KALIBR[given["target_type"]]
+        if kind == APRILGRID:
+            side, gap = float(given["tagSize"]), float(given["tagSpacing"])
+            shape = int(given["tagCols"]), int(given["tagRows"])
+            return Board(kind, *shape, side * (1 + gap), side, "APRILTAG_36H11")
+        columns, rows = int(given["targetCols"]), int(given["targetRows"])
+        if kind == CIRCLES:
+            if given["asymmetricGrid"]:
+                return Board(kind, columns, rows, float(given["spacingMeters"]))
+            raise InvalidFile(path, "its circles are symmetric; expected: an asymmetric grid")
+        down, across = float(given["rowSpacingMeters"]), float(given["colSpacingMeters"])
+        if down != across:
+            raise InvalidFile(path, f"its fields are {down} x {across} m; expected: squares")
+        return Board(kind, columns + 1, rows + 1, down)  # Kalibr counts corners
+    except InvalidSetting as error:
+        raise InvalidFile(path, str(error)) from None
+    except (yaml.YAMLError, RecursionError, KeyError, TypeError, ValueError):
+        valid = f"target_type: {listed(KALIBR, 'or')}, with its keys"
+        raise InvalidFile(path, f"it is not a target of Kalibr; expected: {valid}") from None

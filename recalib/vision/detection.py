@@ -1,20 +1,23 @@
 """The corners of a board in a picture, or why the picture is of no use."""
 
 import warnings
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
 from PIL import Image
 
 from recalib.errors import RecalibError
-from recalib.vision.boards import CHARUCO, Board
+from recalib.vision.boards import APRILGRID, CHARUCO, CHESSBOARD, PLAIN, Board
+from recalib.vision.patterns import find_pattern, misplaced, tags_of_kalibr
 
 FEWEST, FEWEST_MARKERS = 8, 4  # corners, and markers, to go by
 MISPLACED = 0.3  # of a marker's side: beside a plane by so much, most markers are of another board
 OTHERS = "4X4_250", "5X5_250", "6X6_250", "APRILTAG_36H11"
+DRAWN = 64  # px, of a square in a drawing
 HALF = 0.5  # px: this refinement counts from the corner of a picture, not from its first pixel
 MANY = 3  # markers of another dictionary that are no chance
 AROUND = 15  # px about an edge: where it is dark, bright and steepest
@@ -70,27 +73,64 @@ def read_picture(path: Path) -> np.ndarray:
 
 def find_corners(board: Board, picture: np.ndarray) -> Corners:
     """The corners of a board in a grey picture (height, width). Raises Unusable."""
-    numbers: np.ndarray = np.zeros(0, int)
-    pixels: np.ndarray = np.zeros((0, 2))
-    if board.kind == CHARUCO:
-        settings = cv2.aruco.CharucoParameters()
-        settings.tryRefineMarkers = True  # by where the others are: it finds more if out of focus
-        found = cv2.aruco.CharucoDetector(board.drawn, settings).detectBoard(picture)
-        markers, ids = _as_arrays(*found[2:])
-        if found[1] is not None:
-            numbers, pixels = found[1].ravel(), found[0].reshape(-1, 2)
+    if board.kind in PLAIN:
+        numbers, pixels = find_pattern(board, picture)
+        if not len(numbers):
+            what = "corners of the chessboard" if board.kind == CHESSBOARD else "circles"
+            blur = _softness(picture)
+            why = f"; it is blurred, by {blur:.1f} px or more" if blur > SOFT else ""
+            raise Unusable(f"it does not show all {len(board.points)} {what}{why}")
+    elif board.kind == CHARUCO:
+        layouts = [board.drawn, replace(board).drawn]  # OpenCV's own, and that before its 4.6
+        layouts[1].setLegacyPattern(True)
+        numbers, pixels, problem = min(
+            (_charuco(board, layout, picture) for layout in layouts[: 2 - board.rows % 2]),
+            key=lambda found: (bool(found[2]), -len(found[0])),
+        )
+        if problem:
+            raise Unusable(_mistake(board, picture) or problem)
     else:
-        markers, ids = _markers(board.alphabet, picture, exact=True)
-        numbers, pixels = (4 * ids[:, None] + np.arange(4)).ravel(), markers.reshape(-1, 2)
-    if problem := _problem(board, markers, ids):
-        raise Unusable(_mistake(board, picture) or problem)
+        markers, ids = _markers(board, picture, exact=True)
+        if problem := _problem(board, board.tags, markers, ids):
+            raise Unusable(_mistake(board, picture) or problem)
+        numbers = (4 * (ids - board.first_id)[:, None] + np.arange(4)).ravel()
+        pixels = markers.reshape(-1, 2)
     if len(numbers) < FEWEST:
         raise Unusable(f"it shows {len(numbers)} corners; expected: at least {FEWEST}")
     if are_on_a_line(board, numbers):
         raise Unusable("its corners lie on a line; expected: some beside it")
     pixels = pixels.astype(float)
     (left, top), (right, bottom) = pixels.min(axis=0).astype(int), pixels.max(axis=0).astype(int)
+    top, left = max(0, top), max(0, left)
     return Corners(numbers, pixels, _softness(picture[top : bottom + 1, left : right + 1]))
+
+
+def _charuco(
+    board: Board, layout: Any, picture: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, str | None]:
+    """Numbers (c,) and pixels (c, 2) of corners by one of the layouts, and what is wrong."""
+    settings = cv2.aruco.CharucoParameters()
+    settings.tryRefineMarkers = True  # by where the others are: it finds more if out of focus
+    corners, numbers, *found = cv2.aruco.CharucoDetector(layout, settings).detectBoard(picture)
+    places = np.array(layout.getObjPoints())[..., :2]
+    problem = _problem(board, places, *_as_arrays(found[0], found[1]))
+    if numbers is None:
+        return np.zeros(0, int), np.zeros((0, 2)), problem
+    return numbers.ravel(), corners.reshape(-1, 2) - charuco_offset(), problem
+
+
+@cache
+def charuco_offset() -> np.ndarray:
+    """px (2,) by which OpenCV's corners of such boards lie to the right and below.
+
+    That is half a pixel in OpenCV 4.10, and nothing from 4.14 on: it is measured on a drawn board.
+    """
+    alphabet = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+    board = cv2.aruco.CharucoBoard((4, 3), DRAWN, DRAWN * 0.75, alphabet)
+    picture = cv2.GaussianBlur(board.generateImage((4 * DRAWN, 3 * DRAWN)), (0, 0), 1)
+    corners, numbers, _, _ = cv2.aruco.CharucoDetector(board).detectBoard(picture)
+    true = np.array(board.getChessboardCorners())[numbers.ravel(), :2] - 0.5
+    return np.round(2 * np.median(corners.reshape(-1, 2) - true, axis=0)) / 2
 
 
 def are_on_a_line(board: Board, numbers: np.ndarray) -> bool:
@@ -99,28 +139,31 @@ def are_on_a_line(board: Board, numbers: np.ndarray) -> bool:
     return bool(np.linalg.matrix_rank(points - points.mean(axis=0), tol=board.square / 10) < 2)
 
 
-def _problem(board: Board, markers: np.ndarray, ids: np.ndarray) -> str | None:
-    """What is wrong with markers, if anything is."""
+def _problem(board: Board, places: np.ndarray, markers: np.ndarray, ids: np.ndarray) -> str | None:
+    """What is wrong with markers, if anything is, by their places (m, 4, 2) [m] on the board."""
     if len(ids) < FEWEST_MARKERS:
         return f"it shows {len(ids)} markers of the board; expected: at least {FEWEST_MARKERS}"
     if len(np.unique(ids)) < len(ids):
         twice = next(number for number in ids if (ids == number).sum() > 1)
         return f"marker {twice} appears more than once: a second board, or two exposures"
-    if ids.max() >= board.markers:
-        return f"marker {ids.max()} is not on the board: this is another one"
-    places = np.array(board.drawn.getObjPoints())[ids, :, :2]
-    if _misplaced(places, markers) > MISPLACED:
+    numbers = ids - board.first_id
+    if numbers.min() < 0 or numbers.max() >= board.markers:
+        outside = ids[(numbers < 0) | (numbers >= board.markers)].max()
+        return f"marker {outside} is not on the board: this is another one, or has another first_id"
+    if misplaced(places[numbers], markers) > MISPLACED:
         return "markers are not where the board has them: this is another one"
     return None
 
 
 def _mistake(board: Board, picture: np.ndarray) -> str | None:
     """A mistake that explains why the board was not found."""
-    if _problem(board, *_markers(board.alphabet, cv2.flip(picture, 1))) is None:
+    if _problem(board, board.tags, *_markers(board, cv2.flip(picture, 1))) is None:
         return "it is mirrored; try: the camera's own picture"
     for name in OTHERS:
-        alphabet = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, f"DICT_{name}"))
-        if not board.dictionary.startswith(name[:4]) and len(_markers(alphabet, picture)[1]) > MANY:
+        if board.dictionary.startswith(name[:4]):
+            continue
+        other = replace(board, dictionary=name, first_id=0, columns=2, rows=2)
+        if len(_markers(other, picture)[1]) > MANY:
             return f"its markers are of {name}, not of {board.dictionary}: this is another board"
     if (softness := _softness(picture)) > SOFT:
         return f"it is blurred, by {softness:.1f} px or more"
@@ -128,32 +171,24 @@ def _mistake(board: Board, picture: np.ndarray) -> str | None:
 
 
 def _markers(
-    alphabet: cv2.aruco.Dictionary, picture: np.ndarray, exact: bool = False
+    board: Board, picture: np.ndarray, exact: bool = False
 ) -> tuple[np.ndarray, np.ndarray]:
     """Corners (m, 4, 2) [px] and numbers (m,) of markers."""
     settings = cv2.aruco.DetectorParameters()
+    if board.kind == APRILGRID:
+        return tags_of_kalibr(board, picture, settings)
     if exact:
         settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_APRILTAG
-    corners, ids, _ = cv2.aruco.ArucoDetector(alphabet, settings).detectMarkers(picture)
+    corners, ids, _ = cv2.aruco.ArucoDetector(board.alphabet, settings).detectMarkers(picture)
     markers, numbers = _as_arrays(corners, ids)
     return markers - HALF * exact, numbers
 
 
-def _as_arrays(corners: Sequence[np.ndarray], ids: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _as_arrays(corners: Any, ids: Any) -> tuple[np.ndarray, np.ndarray]:
     """Corners (m, 4, 2) [px] and numbers (m,) of markers, as OpenCV returns them."""
     if ids is None:
         return np.zeros((0, 4, 2)), np.zeros(0, int)
     return np.array(corners).reshape(-1, 4, 2), ids.ravel()
-
-
-def _misplaced(places: np.ndarray, markers: np.ndarray) -> float:
-    """How far markers (m, 4, 2) [px] are from where a plane has them, in sides of theirs."""
-    plane, _ = cv2.findHomography(places.reshape(-1, 2), markers.reshape(-1, 2), cv2.LMEDS)
-    if plane is None:
-        return np.inf
-    expected = cv2.perspectiveTransform(places.astype(float), plane)
-    gaps = np.linalg.norm(expected - markers, axis=-1).mean(axis=1)
-    return float(np.quantile(gaps / np.linalg.norm(markers[:, 0] - markers[:, 1], axis=-1), 0.75))
 
 
 def _softness(picture: np.ndarray) -> float:

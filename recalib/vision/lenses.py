@@ -1,9 +1,10 @@
-"""A lens: how directions become pixels. Read from ROS' camera_info or OpenCV's YAML."""
+"""A lens: how directions become pixels. Read from files of ROS, OpenCV, Kalibr and RealSense."""
 
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
+from typing import Any
 
 import numpy as np
 import yaml
@@ -19,10 +20,12 @@ MATRICES = "camera_matrix", "k", "K"
 DISTORTIONS = "distortion_coefficients", "dist_coeffs", "distCoeffs", "d", "D"
 OF_OPENCV = re.compile(r"!!opencv-[\w-]+")  # a tag, which other readers do not know
 SIZES = ("image_width", "image_height"), ("width", "height")
-LONGEST = (
-    0.05,
-    50.0,
-)  # focal lengths over the larger side of a picture: from a fisheye to a telescope
+# models of Kalibr and RealSense; of the inverse one of RealSense, coefficients have to be zero
+OTHERS = {"radtan": "plumb_bob", FISHEYE: FISHEYE, "none": "plumb_bob"}
+OTHERS |= {"brown conrady": "plumb_bob", "kannala brandt4": FISHEYE}
+REALSENSE = "fx", "fy", "ppx", "ppy"
+# focal lengths over the larger side of a picture: from a fisheye to a telescope
+LONGEST = 0.05, 50.0
 
 
 @dataclass(frozen=True)
@@ -68,7 +71,7 @@ class Lens:
 
 
 def read_lens(path: str | PathLike[str]) -> Lens:
-    """The lens in the YAML at `path`. Coefficients that are zero at the end are no part of it.
+    """The lens in the YAML or JSON at `path`. Coefficients that are zero at its end are left out.
 
     Raises InvalidFile.
     """
@@ -76,11 +79,15 @@ def read_lens(path: str | PathLike[str]) -> Lens:
     try:
         lines = content.decode("utf-8").splitlines()
         text = "\n".join(line for line in lines if not line.startswith(("%", "---")))
-        tree = yaml.safe_load(OF_OPENCV.sub("", text))
+        tree = yaml.safe_load(OF_OPENCV.sub("", text).replace("\t", " "))
     except (ValueError, RecursionError, yaml.YAMLError):
         tree = None
     if not isinstance(tree, dict):
-        raise InvalidFile(path, "it is not a YAML file of OpenCV or ROS")
+        raise InvalidFile(path, "it is not a YAML file of OpenCV, ROS, Kalibr or RealSense")
+    try:
+        tree = _as_ros(tree)
+    except (KeyError, TypeError, ValueError) as error:
+        raise InvalidFile(path, f"it is not a lens: {error}") from None
     matrix, distortion = (_numbers(tree, names) for names in (MATRICES, DISTORTIONS))
     sides = next((names for names in SIZES if tree.keys() >= {*names}), SIZES[0])
     size = np.concatenate([_numbers(tree, [side]) for side in sides])
@@ -110,6 +117,37 @@ def read_lens(path: str | PathLike[str]) -> Lens:
         count = next(n for n in (4, 5, 8) if not distortion[n:].any())
         distortion = distortion[:count]
     return Lens((width, height), matrix.reshape(3, 3), distortion, model == FISHEYE)
+
+
+def _as_ros(tree: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A lens of Kalibr or RealSense, as ROS has it; all else as it is.
+
+    Raises KeyError, TypeError, ValueError.
+    """
+    cameras = [camera for name, camera in tree.items() if re.fullmatch(r"cam\d+", str(name))]
+    if len(cameras) > 1:
+        raise ValueError(f"it has {len(cameras)} cameras; try: one of them in a file of its own")
+    given = {str(name).lower(): value for name, value in (*cameras, tree)[0].items()}
+    if "camera_model" in given:
+        if given["camera_model"] != "pinhole":
+            raise ValueError(f"camera_model is {given['camera_model']!r}; expected: pinhole")
+        size, focal, model = given["resolution"], given["intrinsics"], given["distortion_model"]
+        coefficients = given.get("distortion_coeffs") or [0.0] * 4
+    elif given.keys() >= {*REALSENSE}:
+        size, focal = ([given[key] for key in keys] for keys in (SIZES[1], REALSENSE))
+        coefficients, model = given["coeffs"], given.get("model", given.get("distortion"))
+        coefficients = coefficients.split() if isinstance(coefficients, str) else coefficients
+        coefficients = [float(number) for number in coefficients]
+        model = model if any(coefficients) else "none"
+    else:
+        return tree
+    name = str(model).lower().replace("_", " ").removeprefix("distortion.")
+    if name not in OTHERS:
+        raise ValueError(f"its model is {name!r}; expected: {', '.join(OTHERS)}, or all zero")
+    fx, fy, cx, cy = focal
+    named = OTHERS[name], [fx, 0, cx, 0, fy, cy, 0, 0, 1], coefficients[: MODELS[OTHERS[name]]]
+    keys = "distortion_model", MATRICES[0], DISTORTIONS[0]
+    return dict(zip((*SIZES[0], *keys), (*size, *named), strict=True))
 
 
 def _numbers(tree: Mapping[str, object], names: Sequence[str]) -> np.ndarray:

@@ -204,7 +204,7 @@ def _found(
     ahead = board.points @ turn[2] + pose[2, 3] > 0
     inside = ((pixels > 0) & (pixels < np.array(lens.size) - 1)).all(axis=1)
     across = (slopes[:, 3:6].reshape(-1, 2, 3) @ turn)[..., :2]  # px for a m on the board
-    narrow = board.marker * np.linalg.norm(across, -2, axis=(1, 2))
+    narrow = (board.marker or board.square) * np.linalg.norm(across, -2, axis=(1, 2))
     faces = np.linalg.det(across) > 0
     found: np.ndarray = ahead & inside & faces & (narrow > NARROW)
     return found

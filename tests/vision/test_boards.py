@@ -1,5 +1,6 @@
 """Boards on paper and in TOML, and lenses in YAML."""
 
+import json
 from io import BytesIO
 
 import cv2
@@ -7,12 +8,14 @@ import numpy as np
 import pytest
 import yaml
 from pypdf import PdfReader
+from scipy.spatial.transform import Rotation
 
 from recalib import InvalidFile
 from recalib.vision.boards import Board, printable, read_board
-from recalib.vision.detection import Unusable, find_corners
+from recalib.vision.detection import Corners, Unusable, find_corners
 from recalib.vision.lenses import read_lens
 from recalib.vision.printing import draw_board
+from recalib.vision.views import board_pose
 from tests.vision.rendering import LENS
 
 DOTS = 100  # an inch, of Matplotlib's PNG
@@ -56,7 +59,7 @@ def test_a_board_is_read_as_it_is_described(board, tmp_path):
     [
         ("columns = 7|columns = 1", "columns is 1; expected: a whole number from 2 to 50"),
         ('square = "36 mm"|square = 36', "square is 36; expected: a length in mm, cm, m"),
-        ('"charuco"|"chess"', "kind is 'chess'; expected: charuco or apriltag"),
+        ('"charuco"|"chess"', "kind is 'chess'; expected: charuco, apriltag, aprilgrid"),
         ("rows = 5|rows = 51", "rows is 51; expected: a whole number from 2 to 50"),
         ("columns = 7|columns = 6.0", "columns is 6.0; expected: a whole number from 2 to 50"),
         ('"27 mm"|"36.5 mm"', "marker is '36.5 mm'; expected: less than the square"),
@@ -90,6 +93,159 @@ def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
         lens = read_lens(tmp_path / name)
         assert lens.size == LENS.size and np.allclose(lens.matrix, LENS.matrix)
         assert np.allclose(lens.distortion, LENS.distortion)
+
+
+RADIAL, FOUR = LENS.distortion[:4].tolist(), [0.05, -0.01, 0.003, -0.001]
+FX, FY, CX, CY = FOCAL = LENS.matrix[[0, 1, 0, 1], [0, 1, 2, 2]].tolist()
+OTHERS = {
+    "kalibr": (
+        {
+            "cam0": {
+                "camera_model": "pinhole",
+                "distortion_coeffs": RADIAL,
+                "distortion_model": "radtan",
+                "intrinsics": FOCAL,
+                "resolution": list(LENS.size),
+                "rostopic": "/cam0/image_raw",
+            }
+        },
+        RADIAL,
+    ),
+    "kalibr, fisheye": (
+        {
+            "camera_model": "pinhole",
+            "distortion_coeffs": FOUR,
+            "distortion_model": "equidistant",
+            "intrinsics": FOCAL,
+            "resolution": list(LENS.size),
+        },
+        FOUR,
+    ),
+    "realsense": (
+        {
+            "width": LENS.size[0],
+            "height": LENS.size[1],
+            "ppx": CX,
+            "ppy": CY,
+            "fx": FX,
+            "fy": FY,
+            "model": "distortion.brown_conrady",
+            "coeffs": [*RADIAL, 0.0],
+        },
+        RADIAL,
+    ),
+    "realsense, printed": (
+        f"Width:\t{LENS.size[0]}\nHeight:\t{LENS.size[1]}\nPPX:\t{CX}\nPPY:\t{CY}\nFx:\t{FX}\n"
+        f"Fy:\t{FY}\nDistortion:\tInverse Brown Conrady\nCoeffs:\t0  \t0  \t0  \t0  \t0\n",
+        [0.0] * 4,
+    ),
+}
+
+
+def seen_by(model: str, own: list[float], points: np.ndarray) -> np.ndarray:
+    """Pixels (n, 2) of points (n, 3) by the formulas in the manuals of these programs."""
+    x, y = points[:, 0] / points[:, 2], points[:, 1] / points[:, 2]
+    square = x**2 + y**2
+    if model in ("equidistant", "Kannala Brandt4"):
+        r = np.sqrt(square)
+        angle = np.arctan(r)
+        powers = sum(k * angle ** (2 * n) for n, k in enumerate(own, 1))
+        x, y = (part * angle * (1 + powers) / r for part in (x, y))
+    else:
+        k1, k2, p1, p2, k3, k4, k5, k6 = [*own, 0, 0, 0, 0][:8]
+        radial = 1 + k1 * square + k2 * square**2 + k3 * square**3
+        radial /= 1 + k4 * square + k5 * square**2 + k6 * square**3
+        x, y = (
+            x * radial + 2 * p1 * x * y + p2 * (square + 2 * x**2),
+            y * radial + p1 * (square + 2 * y**2) + 2 * p2 * x * y,
+        )
+    return np.stack([FX * x + CX, FY * y + CY], axis=1)
+
+
+RATIONAL = [0.3, -0.1, 1e-3, -5e-4, 0.02, 0.45, -0.05, 0.01]
+WRITTEN = {
+    **{f"ros, {model}": ("ros", model, own) for model, own in (
+        ("plumb_bob", [*RADIAL, 0.01]), ("rational_polynomial", RATIONAL), ("equidistant", FOUR))},
+    **{f"opencv, {count}": ("opencv", "", own) for count, own in (
+        (4, RADIAL), (5, [*RADIAL, 0.01]), (8, RATIONAL))},
+    **{f"kalibr, {model}": ("kalibr", model, own) for model, own in (
+        ("radtan", RADIAL), ("equidistant", FOUR))},
+    **{f"realsense, {model}": ("realsense", model, own) for model, own in (
+        ("Brown Conrady", [*RADIAL, 0.01]), ("Kannala Brandt4", FOUR))},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("program", "model", "own"), WRITTEN.values(), ids=WRITTEN)
+def test_a_picture_is_what_the_lens_of_another_program_shows(program, model, own, tmp_path):
+    """The corners of a board that is drawn by the program's own formula have its pose."""
+    size = dict(zip(("width", "height"), LENS.size, strict=True))
+    matrix = [FX, 0.0, CX, 0.0, FY, CY, 0.0, 0.0, 1.0]
+    path = tmp_path / "lens.yaml"
+    if program == "opencv":
+        storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
+        for side, pixels in size.items():
+            storage.write(f"image_{side}", pixels)
+        storage.write("camera_matrix", np.reshape(matrix, (3, 3)))
+        storage.write("distortion_coefficients", np.array(own))
+        storage.release()
+    else:
+        path.write_text(
+            yaml.dump({
+                "ros": {**size, "distortion_model": model, "d": own, "k": matrix},
+                "kalibr": {
+                    "cam0": {
+                        "camera_model": "pinhole",
+                        "distortion_model": model,
+                        "distortion_coeffs": own,
+                        "intrinsics": FOCAL,
+                        "resolution": list(LENS.size),
+                    }
+                },
+                "realsense": {
+                    **size, "fx": FX, "fy": FY, "ppx": CX, "ppy": CY, "model": model, "coeffs": own,
+                },
+            }[program])
+        )  # fmt: skip
+    lens, board = read_lens(path), BOARDS["charuco"]
+    pose = np.eye(4)
+    pose[:3, :3] = Rotation.from_rotvec([0.3, -0.4, 0.2]).as_matrix()
+    pose[:3, 3] = -0.1, -0.06, 0.35
+    pixels = seen_by(model, own, board.points @ pose[:3, :3].T + pose[:3, 3])
+    found = board_pose(board, lens, Corners(np.arange(len(pixels)), pixels, 1.0))
+    assert found == pytest.approx(pose, abs=1e-6)
+
+
+@pytest.mark.parametrize(("content", "distortion"), OTHERS.values(), ids=OTHERS)
+def test_lenses_of_other_programs_are_read(content, distortion, tmp_path):
+    text = content if isinstance(content, str) else yaml.dump(content)
+    (tmp_path / "lens.yaml").write_text(text)
+    lens = read_lens(tmp_path / "lens.yaml")
+    assert lens.size == LENS.size and np.allclose(lens.matrix, LENS.matrix)
+    assert np.allclose(lens.distortion, distortion)
+    assert lens.fisheye == (distortion == FOUR)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("cam0|camera_0", "are not numbers of pixels"),
+        ("pinhole|omni", "camera_model is 'omni'; expected: pinhole"),
+        ("radtan|fov", "its model is 'fov'; expected: radtan, equidistant, none"),
+        ("intrinsics|focal", "it is not a lens: 'intrinsics'"),
+    ],
+)
+def test_a_chain_of_kalibr_that_is_none_is_refused(change, said, tmp_path):
+    text = yaml.dump(OTHERS["kalibr"][0]).replace(*change.split("|"))
+    (tmp_path / "lens.yaml").write_text(text)
+    with pytest.raises(InvalidFile, match=said):
+        read_lens(tmp_path / "lens.yaml")
+
+
+def test_coefficients_of_the_inverse_model_are_refused(tmp_path):
+    given = OTHERS["realsense"][0] | {"model": "inverse_brown_conrady"}
+    (tmp_path / "lens.json").write_text(json.dumps(given))
+    with pytest.raises(InvalidFile, match="its model is 'inverse brown conrady'"):
+        read_lens(tmp_path / "lens.json")
 
 
 @pytest.mark.parametrize(

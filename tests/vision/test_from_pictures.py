@@ -336,7 +336,7 @@ def published(command: str) -> np.ndarray:
 
 
 def test_places_are_written_as_they_are_published(calibrated):
-    """And the arm that is taken as right has its own, by the same lens."""
+    """And the arm that is taken as right has its own."""
     written = tomllib.loads(hand_eye(calibrated))
     for place in calibrated.places:
         name = place.name.removeprefix("the ")
@@ -359,4 +359,4 @@ def test_places_are_written_as_they_are_published(calibrated):
         assert own[name]["pixels"] == pytest.approx(pixels, rel=1e-3)
         millimetres = 1e3 * validation.mean_error(name, validation.chosen)
         assert own[name]["millimetres"] == pytest.approx(millimetres, rel=1e-3)
-        assert as_right[name]["pixels"] > 5 * pixels
+        assert as_right[name]["pixels"] > 4 * pixels  # its lens is found anew, which helps it

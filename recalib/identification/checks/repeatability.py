@@ -6,7 +6,6 @@ pose has the covariance of its corners and, in addition, that of the arm, whose 
 probable of a few.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -21,31 +20,24 @@ COVARIANCE = np.diag([LEVER**2] * 3 + [1.0] * 3)
 RETURNS = 3e-5, 1e-4, 3e-4, 1e-3  # rad: from what hardly an arm does better to a worn one
 
 
-def weigh(
-    model: ErrorModel, observations: Observations, sizes: Sequence[float] = RETURNS
-) -> Observations:
+def weigh(model: ErrorModel, observations: Observations) -> Observations:
     """The same observations, whose optics take into account how well the arm returns.
-
-    Args:
-        sizes: rad by which joints may be off, of which the most probable one is used.
 
     Raises BadMeasurement, as `identify`.
     """
     assert observations.optics is not None
-    covariance = returning(model, observations, sizes)
+    covariance = returning(model, observations)
     return replace(observations, optics=observations.optics.with_noise(covariance))
 
 
-def returning(
-    model: ErrorModel, observations: Observations, sizes: Sequence[float] = RETURNS
-) -> np.ndarray:
+def returning(model: ErrorModel, observations: Observations) -> np.ndarray:
     """The covariance (6, 6) [m, rad] by which the arm does not return to a posture.
 
     Arguments and errors are those of `weigh`.
     """
     assert observations.optics is not None
     tried = []
-    for size in sizes:
+    for size in RETURNS:
         covariance = size**2 * COVARIANCE
         optics = observations.optics.with_noise(covariance)
         # a density of residuals before they were whitened

@@ -1,6 +1,7 @@
 """From pictures of a board, and the joints at each, to what `recalib calibrate` reads."""
 
 import os
+import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -23,7 +24,7 @@ from recalib.laboratory.pictures.observed import (
     doubt_of,
     views_of,
 )
-from recalib.laboratory.tables.table import read_table
+from recalib.laboratory.tables.table import Table, read_table
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import FEWEST as FEWEST_CORNERS
 from recalib.vision.detection import Unusable, find_corners, read_picture
@@ -33,17 +34,19 @@ from recalib.vision.views import board_pose, good_corners, reprojection
 
 ENOUGH = 10  # pictures
 SOFTER = 2.0  # times the median blur: so much more is a picture that moved or is out of focus
+DIGITS = re.compile(r"(\d+)")
 WORSE = 4.0  # times the median reprojection error
 
 
 def observe(
     folder: str | PathLike[str],
-    joints: str | PathLike[str],
+    joints: str | PathLike[str] | Table,
     board: str | PathLike[str],
     lens: str | PathLike[str] | None = None,
     in_hand: bool = False,
     on_progress: Callable[[str], None] = lambda line: None,
     camera: str = "camera",
+    least: int = ENOUGH,
 ) -> Observed:
     """Find a board in pictures.
 
@@ -55,13 +58,14 @@ def observe(
         in_hand: whether the camera is on the hand.
         on_progress: called with what is being done, in a line each.
         camera: the name of the camera, among several.
+        least: how many pictures have to be of use.
 
     Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.
     """
     if not NAME.fullmatch(camera):
         raise InvalidSetting("--name", camera, "letters, digits, _ and -")
     given = None if lens is None else read_lens(lens)
-    sheet, table = read_board(board), read_table(joints)
+    sheet, table = read_board(board), joints if isinstance(joints, Table) else read_table(joints)
     if PICTURE not in table:
         raise InvalidFile(table.path, f"column {PICTURE!r} is missing: the name of each row's file")
     names = table.cells[PICTURE]
@@ -81,12 +85,22 @@ def observe(
         raise InvalidFile(folder, f"none of the pictures in {table.path.name} can be read")
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
     on_progress("the lens" if given is None else "poses")
-    own, pictures = _posed(_compared(pictures, size, given is not None), sheet, size, given)
+    compared = _compared(pictures, size, given is not None)
+    own, pictures = _posed(compared, sheet, size, given, least)
     listed = {os.path.abspath(Path(folder) / name) for name in names}
-    others = sorted(path for path in Path(folder).iterdir() if os.path.abspath(path) not in listed)
-    unlisted = [path.name for path in others if cv2.haveImageReader(str(path))]
+    others = [path.name for path in pictures_in(folder) if os.path.abspath(path) not in listed]
     named = "_".join(NAME.findall(Path(board).stem)) or "board"
-    return Observed(table, sheet, own, given, in_hand, pictures, unlisted, camera, named)
+    return Observed(table, sheet, own, given, in_hand, pictures, others, camera, named)
+
+
+def pictures_in(folder: str | PathLike[str]) -> list[Path]:
+    """The pictures in a folder by their names, with numbers as such: 2.png is before 10.png."""
+    return sorted(
+        (path for path in Path(folder).iterdir() if cv2.haveImageReader(str(path))),
+        key=lambda path: [
+            int(part) if part.isdecimal() else part for part in DIGITS.split(path.name)
+        ],
+    )
 
 
 def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
@@ -133,16 +147,16 @@ def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool)
 
 
 def _posed(
-    pictures: list[Picture], board: Board, size: tuple[int, int], given: Lens | None
+    pictures: list[Picture], board: Board, size: tuple[int, int], given: Lens | None, least: int
 ) -> tuple[FoundLens, list[Picture]]:
     """The lens by the pictures, and these with their poses; those that fit badly are refused."""
     while True:
         views = views_of(board, pictures)
-        if len(views) < max(ENOUGH, FEWEST):
+        if len(views) < max(least, FEWEST):
             first = next((f"; {one.name}: {one.reason}" for one in pictures if one.reason), "")
             raise RecalibError(
                 f"{len(views)} of {len(pictures)} pictures can be used; expected: at least"
-                f" {ENOUGH}{first}"
+                f" {max(least, FEWEST)}{first}"
             )
         own = find_lens(views, size)
         if given is not None:

@@ -139,6 +139,15 @@ class Observed:
             lines.append(f"not in {self.table.path.name}: {', '.join(self.unlisted)}")
         return "\n".join([*lines, ""])
 
+    @property
+    def setup(self) -> str:
+        """A TOML of what was observed, and how."""
+        return (
+            f'camera = "{IN_HAND if self.in_hand else FIXED}"\n'
+            f"lens_from_pictures = {str(self.given is None).lower()}\n"
+            f'camera_name = "{self.camera}"\nboard_name = "{self.board_name}"\n\n'
+        ) + self.board.described()
+
     def files(self) -> dict[str, bytes]:
         """The files of a folder for `recalib calibrate`, by their names."""
         corners = (
@@ -147,15 +156,10 @@ class Observed:
             if shown.corners is not None
             for number, (u, v) in zip(shown.corners.numbers, shown.corners.pixels, strict=True)
         )
-        setup = (
-            f'camera = "{IN_HAND if self.in_hand else FIXED}"\n'
-            f"lens_from_pictures = {str(self.given is None).lower()}\n"
-            f'camera_name = "{self.camera}"\nboard_name = "{self.board_name}"\n\n'
-        )
         return {
             "summary.txt": self.summary().encode(),
             LENS: self.lens.as_ros().encode(),
-            SETUP: (setup + self.board.described()).encode(),
+            SETUP: self.setup.encode(),
             OBSERVED: table_text(self._measurements()),
             CORNERS: table_text(corners),
         }

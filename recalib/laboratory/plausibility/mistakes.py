@@ -27,7 +27,7 @@ EXPLAINED = 0.2  # the part of a difference that may remain without the mistake
 UNITS = {  # wrong units of positions, by the factor that corrects them
     1e-3: "in millimetres labelled m",
     1e-2: "in centimetres labelled m",
-    1e-1: "in millimetres that say cm",
+    1e-1: "in millimetres labelled cm",
     1e1: "in centimetres labelled mm",
     25.4: "in inches labelled mm",
     1e2: "in metres labelled cm",

@@ -60,13 +60,19 @@ def postures_table(arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool =
         fake: the poses are commands, in columns that `read_desired` refuses: they would be
             corrected twice.
     """
-    kinds = (FAKE_POSITIONS, FAKE_ROTATIONS) if fake else (POSITIONS, ROTATION_VECTORS)
-    headings = [*joint_headings(arm), *(heading for kind in kinds for heading in kind.written)]
     scales = [1e3 if slides else 180 / np.pi for slides in arm.coupling.slides]
+    texts = [[f"{number:.9f}" for number in row] for row in joints * scales]
+    own = (dict(zip(joint_headings(arm), row, strict=True)) for row in texts)
+    return table_text(row | pose for row, pose in zip(own, pose_rows(poses, fake), strict=True))
+
+
+def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]:
+    """The cells of poses (n, 4, 4) [m] by their headings; see `postures_table`."""
+    kinds = (FAKE_POSITIONS, FAKE_ROTATIONS) if fake else (POSITIONS, ROTATION_VECTORS)
+    headings = [heading for kind in kinds for heading in kind.written]
     turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
-    numbers = np.concatenate([joints * scales, 1e3 * poses[:, :3, 3], turns], axis=1)
-    texts = ([f"{number:.9f}" for number in row] for row in numbers)
-    return table_text(dict(zip(headings, row, strict=True)) for row in texts)
+    for row in np.concatenate([1e3 * poses[:, :3, 3], turns], axis=1):
+        yield dict(zip(headings, (f"{number:.9f}" for number in row), strict=True))
 
 
 def _calibration(result: Results) -> dict[str, bytes]:

@@ -1,15 +1,14 @@
 """Hand-eye calibration: where cameras and boards are, how sure that is, and what it is worth."""
 
-import shlex
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from recalib.identification.arm_as_right import arm_as_right
+from recalib.identification.hand_eye import Sights, calibrate_hand_eye
+from recalib.identification.hand_eye import held_out as without_fold
 from recalib.identification.held_out import HeldOut
 from recalib.identification.validation import WAYS
-from recalib.laboratory.places import Place
+from recalib.laboratory.places import Place, hand_eye_places
 from recalib.laboratory.report.templates import render
 from recalib.laboratory.results import Results
 
@@ -28,34 +27,40 @@ def pixel_error(result: Results, way: str, kind: str, sight: int | None = None) 
     return float(observations.optics.moved(residuals)[counted].mean())
 
 
-def frame_name(place: Place) -> str:
-    """A place's name as TOML and ROS take it."""
-    return place.name.removeprefix("the ").replace(" ", "_")
-
-
-def static_transform(place: Place) -> str:
-    """The command of ROS 2 that publishes a place."""
-    turn = Rotation.from_matrix(place.pose[:3, :3]).as_quat()
-    names = "x", "y", "z", "qx", "qy", "qz", "qw"
-    numbers = zip(names, np.concatenate([place.position, turn]), strict=True)
-    given = " ".join(f"--{name} {number:.7f}" for name, number in numbers)
-    frames = f"--frame-id {shlex.quote(place.link)} --child-frame-id {frame_name(place)}"
-    return f"ros2 run tf2_ros static_transform_publisher {given} {frames}"
-
-
 def hand_eye(result: Results) -> str:
     """A TOML with all frames, held-out errors, and the same with the arm taken as right."""
     validation = result.validation
     held_out = {way: validation.held_out[way][validation.chosen] for way in WAYS}
-    folds = {way: errors.folds for way, errors in held_out.items()}
-    as_right, without = arm_as_right(result.geometry, result.data.observations, folds)
-    places = result.places_by(as_right, [], result.arm.tool)
+    as_right, without = _arm_as_right(result, held_out)
     parts = (
         ("", result.places, _errors(result, held_out)),
-        ("arm_as_right.", places, _errors(result, without)),
+        ("arm_as_right.", as_right, _errors(result, without)),
     )
-    functions = {"frame_name": frame_name, "static_transform": static_transform}
-    return render("hand_eye.toml.j2", parts=parts, **functions)
+    return render("hand_eye.toml.j2", parts=parts)
+
+
+def _arm_as_right(
+    result: Results, held_out: Mapping[str, HeldOut]
+) -> tuple[list[Place], dict[str, HeldOut]]:
+    """The places of cameras and boards by the nominal arm, and errors in the same folds.
+
+    What is seen in several sights is where the first has it.
+    """
+    data, arm = result.data, result.arm
+    rows, links = data.observations, (arm.base, arm.tool)
+    assert rows.measured is not None and rows.optics is not None
+    flange, places = arm.forward(rows.joints), dict[str, Place]()
+    residuals = {way: np.zeros((len(rows), 6)) for way in held_out}
+    for sight, pair in enumerate(result.geometry.frames.sights):
+        own = np.flatnonzero(rows.targets == sight)
+        found = calibrate_hand_eye(Sights(flange, rows.measured, False, rows.optics)[own])
+        for way, part in residuals.items():
+            part[own] = without_fold(found, held_out[way].folds[own])
+        names = data.instruments[pair[0]], data.target_names[pair[1]]
+        for place in hand_eye_places(found, names, links):
+            places.setdefault(place.name, place)
+    errors = {way: HeldOut(residuals[way], held_out[way].folds, rows.optics) for way in held_out}
+    return [*places.values()], errors
 
 
 def _errors(result: Results, held_out: Mapping[str, HeldOut]) -> dict[str, tuple[float, float]]:

@@ -32,6 +32,7 @@ def render(template: str, **values: Any) -> str:
     )
     environment.filters |= {
         "mm": lambda length: f"{1e3 * length:.3g} mm",
+        "degrees": np.degrees,
         "in_units": in_units,
         "quoted": quoted,
     }

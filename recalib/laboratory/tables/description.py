@@ -103,10 +103,13 @@ def _vector(key: str, given: Any, kind: Quantity) -> np.ndarray:
     """Values and deviations (2, 3) of quantities such as "3 mm" or "3 mm +- 1 mm"."""
     if not isinstance(given, list) or len(given) != 3:
         raise InvalidSetting(key, given, 'a list of three quantities such as "3 mm +- 1 mm"')
-    parts = [text.split("+-", 1) if isinstance(text, str) else [text] for text in given]
-    values = [_read(key, part[0], kind) for part in parts]
-    within = [_positive(key, part[1], kind) if part[1:] else 0.0 for part in parts]
-    return np.array([values, within])
+    return np.array([within(key, quantity, kind) for quantity in given]).T
+
+
+def within(key: str, given: Any, kind: Quantity, default: float = 0.0) -> tuple[float, float]:
+    """A value and its deviation. Raises InvalidSetting."""
+    value, *deviation = given.split("+-", 1) if isinstance(given, str) else [given]
+    return _read(key, value, kind), _positive(key, deviation[0], kind) if deviation else default
 
 
 def _wear(given: Any) -> tuple[float, tuple[float, float] | None]:

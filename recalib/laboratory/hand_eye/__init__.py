@@ -1,0 +1,1 @@
+"""Hand-eye calibration from flange poses, without a URDF."""

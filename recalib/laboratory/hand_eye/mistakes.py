@@ -1,0 +1,163 @@
+"""What poses of a flange and of a board cannot determine, and mistakes in them, each by its name.
+
+Other directions, other conventions and another camera's side are tried if the poses do not fit. The
+one that explains them is named. Sizes are compared by the scale s of the board in
+
+    R_X (s y_i) + x = R_Gi z + t_Gi,
+
+whose rotations are those of the fit.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from recalib.errors import RecalibError
+from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
+from recalib.laboratory.hand_eye.conventions import other_readings
+from recalib.laboratory.hand_eye.pose_table import PoseTable
+from recalib.laboratory.plausibility.mistakes import UNITS
+from recalib.spelling import counted
+
+FEWEST = 6  # poses: each has 6 numbers, and 12 are sought
+ALIKE = 2.0  # deg: orientations that differ by less
+WRONG, HOPELESS = 5e-3, 50e-3  # m: few arms and cameras leave as much; none does
+EXPLAINED = 0.3  # the part of what remains that may remain without a mistake
+OPEN = 0.05, np.radians(5)  # m, rad: a deviation as large is no result
+LOOSE = 1e-2  # a singular value so small, over the largest, leaves a direction open
+SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it has to be off
+TILT = "try: poses that are tilted by 20 deg or more, about two axes"
+
+
+class Mistaken(RecalibError):
+    """Poses that do not determine where camera and board are, or fit only if read otherwise."""
+
+
+def check_motion(sights: Sights) -> None:
+    """Raise Mistaken, unless the flange moved and turned as much as it takes."""
+    if len(sights) < FEWEST:
+        found = f"{counted(len(sights), 'pose')} can be used"
+        raise Mistaken(f"{found}; expected: at least {FEWEST}, better 15 or more")
+    (most, second, _), axes = sights.axes
+    if most < ALIKE:
+        raise Mistaken(
+            f"all poses are turned alike, within {most:.2g} deg, which does not determine where"
+            f" camera and board are; {TILT}"
+        )
+    if second < ONE_AXIS and sights.height is None:
+        axis = ", ".join(f"{number:.2f}" for number in axes[0] * np.sign(axes[0].sum()))
+        raise Mistaken(
+            f"all turns are about one axis, ({axis}) in the base, along which the places of camera"
+            f" and board are not determined; {TILT}; of an arm with four axes, --height"
+        )
+
+
+def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> None:
+    """Raise Mistaken if poses are likely wrong, or leave a place uncertain by decimetres.
+
+    Args:
+        flange, targets: the tables that they are from; None if pictures show the target.
+    """
+    remaining = found.misfit
+    fits = remaining < WRONG
+    sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
+    scale, deviation, left = min(sizes, key=lambda size: size[2])
+    if fits or left < EXPLAINED * remaining:
+        _check_size(scale, deviation)
+    if not fits:
+        _check_readings(found.sights, flange, targets, remaining)
+    for part, name in enumerate(("camera", "board")):
+        position, turn = found.deviations(part)
+        if position > OPEN[0] or turn > OPEN[1]:
+            raise Mistaken(
+                f"the {name}'s place is known to {1e3 * position:.0f} mm and"
+                f" {np.degrees(turn):.1f} deg only; {TILT}, and that are decimetres apart"
+            )
+
+
+def board_size(found: HandEye) -> tuple[float, float, float]:
+    """The board's true size over the one described, by the rotation of a fit; its deviation.
+
+    Also the median error of positions with it [m], as large as the board is described.
+    """
+    sights, turn = found.sights, found.camera[:3, :3]
+    rows = np.flatnonzero(found.weights >= np.median(found.weights) / 4)
+    between, places = sights.between[rows], sights.board[rows, :3, 3] @ turn.T
+    unit = np.tile(np.eye(3), (len(rows), 1, 1))
+    system = np.concatenate([places[:, :, None], unit, -between[:, :3, :3]], axis=2)
+    goal, rows_of = between[:, :3, 3], system.reshape(-1, 7)
+    best = np.linalg.lstsq(rows_of, goal.ravel(), rcond=LOOSE)[0]
+    errors = goal - system @ best
+    variance = np.sum(errors**2) / max(1, errors.size - 7)
+    spread = variance * np.linalg.pinv(rows_of.T @ rows_of, rcond=LOOSE**2)[0, 0]
+    scale, remaining = float(best[0]), float(np.median(np.linalg.norm(errors, axis=1)))
+    # a board that shrinks to a point fits everything
+    return scale, float(np.sqrt(spread)), remaining / scale if scale > 0 else np.inf
+
+
+def _check_size(scale: float, deviation: float) -> None:
+    """Raise Mistaken if positions and the board are not of one scale."""
+    if abs(scale - 1) < max(SIZE, SURE * deviation):
+        return
+    for factor, words in UNITS.items():
+        if abs(scale * factor - 1) < 0.1:
+            raise Mistaken(
+                f"the flange's positions are likely {words}: by them, the board is {scale:.3g}"
+                " times as large as described; try: --unit, or another unit in the heading"
+            )
+    raise Mistaken(
+        f"the board is {100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %)"
+        f" {'larger' if scale > 1 else 'smaller'} than described, by the flange's positions; try:"
+        " measure its square and the bar below it"
+    )
+
+
+def _check_readings(
+    sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
+) -> None:
+    """Raise Mistaken if poses that are read otherwise fit much better."""
+
+    def misfit(sights: Sights) -> float:
+        return min(start.misfit for start in starts(sights))
+
+    best, words = min(
+        ((misfit(other), words) for words, other in _others(sights, flange, targets)),
+        key=lambda pair: pair[0],
+    )
+    remain = f"({1e3 * remaining:.3g} mm remain)"
+    if best < EXPLAINED * misfit(sights):
+        but = f"but they do ({1e3 * best:.3g} mm) if {words}"
+        raise Mistaken(f"the poses do not fit as they are read {remain}, {but}")
+    if remaining > HOPELESS:
+        raise Mistaken(
+            f"the poses do not fit in any direction and convention {remain}; are rows and"
+            " pictures in the same order?"
+        )
+
+
+def _others(
+    sights: Sights, flange: PoseTable, targets: PoseTable | None
+) -> Iterator[tuple[str, Sights]]:
+    """Other ways to read the poses, in words, the simplest first."""
+    side, option = ("fixed", "fixed") if sights.in_hand else ("on the hand", "hand")
+    direction = f"the camera is {side} (--camera {option}), or"
+    direction += " the flange's poses are those of the base in it (--inverse flange)"
+    boards = [("", sights.board)]
+    if targets is not None:
+        direction += ", or the target's are those of the camera in it (--inverse targets)"
+        boards = [*_readings("target", "--target-convention", targets)]
+    for theirs, board in boards:
+        for own, poses in _readings("flange", "--convention", flange):
+            for flipped, way in enumerate(("", direction)):
+                right = np.linalg.inv(poses) if flipped else poses
+                if words := [*filter(None, (way, own, theirs))]:
+                    yield ", and ".join(words), replace(sights, flange=right, board=board)
+
+
+def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, np.ndarray]]:
+    """Poses as they were read, without words, and as rotations could be read otherwise."""
+    yield "", table.poses
+    for words, turns in other_readings(table.turns):
+        other = replace(table, rotations=turns.as_matrix())
+        yield f"the {name}'s rotations are {words} ({option})", other.poses

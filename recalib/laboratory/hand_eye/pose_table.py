@@ -1,0 +1,130 @@
+"""Tables of poses that a controller or a camera wrote: with headings, or numbers alone."""
+
+import re
+from dataclasses import dataclass, replace
+from itertools import chain
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from recalib.errors import InvalidFile
+from recalib.files.storage import read_file
+from recalib.laboratory.hand_eye.conventions import MATRIX, OWN, Convention, convention_of
+from recalib.laboratory.tables.columns import PICTURES, POSITIONS
+from recalib.laboratory.tables.table import MOST, Table, table_of
+from recalib.spelling import listed
+
+NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions, and of matrices
+SKEW = 0.02  # of a norm, as people round them
+POSE = (*MATRIX[:3], "x", *MATRIX[3:6], "y", *MATRIX[6:], "z", *(f"last {n}" for n in range(4)))
+_BETWEEN = re.compile(r"[\s,;]+")
+_COMMENT = re.compile(r"^\s*(#|%|//).*\n?", re.MULTILINE)
+_LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # e is in 1e-3
+
+
+@dataclass(frozen=True)
+class PoseTable:
+    """Poses, row by row.
+
+    Attributes:
+        table: the file's cells.
+        positions, rotations: (n, 3) m and (n, 3, 3).
+        turns: (n, k) rad or 1, the numbers of the rotations.
+        inverted: whether poses are wanted in the other direction.
+    """
+
+    table: Table
+    positions: np.ndarray
+    rotations: np.ndarray
+    turns: np.ndarray
+    inverted: bool = False
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def __getitem__(self, rows: np.ndarray) -> "PoseTable":
+        arrays = {name: getattr(self, name)[rows] for name in ("positions", "rotations", "turns")}
+        return replace(self, **arrays)
+
+    @property
+    def poses(self) -> np.ndarray:
+        """(n, 4, 4) m."""
+        poses = np.tile(np.eye(4), (len(self), 1, 1))
+        poses[:, :3, :3], poses[:, :3, 3] = self.rotations, self.positions
+        return np.linalg.inv(poses) if self.inverted else poses
+
+
+def read_poses(
+    path: str | PathLike[str],
+    convention: str | None = None,
+    unit: str | None = None,
+    inverted: bool = False,
+) -> PoseTable:
+    """The poses in the table at `path`.
+
+    Args:
+        convention: how its rotations are written; by its headings if it is None.
+        unit: of positions, if neither headings nor the convention have the right one.
+        inverted: whether the table has the inverse poses.
+
+    Raises InvalidFile: columns that are missing, a cell that is no number, a rotation that is none;
+    UnknownName: the convention.
+    """
+    way = None if convention is None else convention_of(convention)
+    text = _COMMENT.sub("", read_file(path, MOST).decode("utf-8-sig", "replace"))
+    if not _LETTERS.search(text):
+        text = _headed(text, Path(path), way)
+    head, _, rest = text.partition("\n")
+    table = table_of(f"{head.lower()}\n{rest}".encode(), path)
+    if way is None or MATRIX[0] in table:
+        way = _by_headings(table)
+    units = dict(table.units)
+    for columns, own in zip(way.layout, (unit or way.length, way.angle), strict=True):
+        units |= {name: units.get(name) or own for name in columns.headings}
+    table = replace(table, units=units)
+    arrays = table.read((*way.layout, PICTURES), [*table.cells])
+    turns, valid = arrays["turns"], NORMS.get(len(way.headings))
+    if valid and (off := np.abs(np.linalg.norm(turns, axis=1) / valid - 1) > SKEW).any():
+        found = f"has the norm {np.linalg.norm(turns, axis=1)[off][0]:.3g}"
+        raise InvalidFile(
+            path, f"the rotation in row {off.argmax() + 1} {found}; expected: {valid:.3g}"
+        )
+    try:
+        rotations = way.turns(turns).as_matrix()
+    except ValueError as error:  # of SciPy: a mirrored matrix
+        raise InvalidFile(path, f"it has a matrix that is not a rotation: {error}") from None
+    return PoseTable(table, arrays["positions"], rotations, turns, inverted)
+
+
+def _by_headings(table: Table) -> Convention:
+    """What the headings say. Raises InvalidFile if they are those of no rotation."""
+    for way in OWN:
+        if all(heading in table for heading in way.headings):
+            return way
+    valid = listed((", ".join(way.headings) for way in OWN if way.headings != MATRIX), "or")
+    raise InvalidFile(
+        table.path, f"it has no rotation; expected: {valid}; or try: --convention, such as kuka"
+    )
+
+
+def _headed(text: str, path: Path, way: Convention | None) -> str:
+    """Numbers alone, a pose in a row or a matrix in four, as a table with headings."""
+    lines = (line.strip(" \t\r,;[]()") for line in text.splitlines())
+    rows = [_BETWEEN.split(line) for line in lines if line]
+    if len(rows) > 1 and len(rows[0]) == 1:  # how many poses follow
+        rows = rows[1:]
+    if {len(row) for row in rows} == {4} and len(rows) % 4 == 0:
+        rows = [[*chain(*rows[first : first + 4])] for first in range(0, len(rows), 4)]
+    if len({len(row) for row in rows}) > 1:
+        raise InvalidFile(path, "its rows have different lengths; expected: a pose in each row")
+    count, headings = len(rows[0]) if rows else 0, [*POSE]
+    if count not in (12, 16):
+        if way is None:
+            raise InvalidFile(path, "it has no headings; try: --convention, such as ur or kuka")
+        headings = [*POSITIONS.headings, *way.headings]
+        headings = ["time", *headings] if count == len(headings) + 1 else headings
+        if count != len(headings):
+            valid = f"{len(headings)}, {', '.join(headings)}"
+            raise InvalidFile(path, f"it has {count} numbers in a row; expected: {valid}")
+    return "\n".join(",".join(row) for row in (headings[:count], *rows))

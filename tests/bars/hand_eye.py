@@ -1,0 +1,126 @@
+"""Hand-eye calibration next to OpenCV's five solvers: python -m tests.bars.hand_eye.
+
+They are in OpenCV 4 alone: pip install --target FOLDER 'opencv-contrib-python-headless<5', and call
+this with PYTHONPATH=FOLDER. All get the same flange poses and the same corners, by the same lens,
+which is found from the pictures. The board's place is the mean over pictures, by each solver's
+camera. Errors are root mean squares of corners in 40 further pictures, whose flange poses are off,
+too. The floor is what the true camera, board and lens leave there, of which no solver is guilty:
+the excess is the rest, over that of the one solver of OpenCV that is best over all draws. For
+ratios, the best is chosen anew in each draw, by these very pictures.
+"""
+
+import sys
+
+import cv2
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.identification.hand_eye import Sights, calibrate_hand_eye
+from recalib.identification.model.linearisation import displacements
+from recalib.identification.model.optics import BOARD
+from recalib.vision.detection import find_corners
+from recalib.vision.lens_search import find_lens, moved_lens
+from recalib.vision.views import optics_of, projected, sighting
+from tests.vision.hand_eye_cells import HandEyeCell
+from tests.vision.rendering import Cell
+
+FRESH = 40
+SOLVERS = [getattr(cv2, f"CALIB_HAND_EYE_{name}") for name in (
+    "TSAI", "PARK", "HORAUD", "ANDREFF", "DANIILIDIS")]  # fmt: skip
+
+
+class PandaCell(HandEyeCell):
+    """The same with the postures of a Panda; a camera next to it is 1.3 m away."""
+
+    def __post_init__(self):
+        super().__post_init__()
+        self.arm = Cell(self.seed, self.in_hand)
+        self.camera, self.target = self.arm.eye, self.arm.sheet
+
+    def flange(self, count: int) -> np.ndarray:
+        return self.arm.tool(self.arm.postures(count))
+
+
+CELLS = {
+    "Panda, camera next to it": (PandaCell, {"in_hand": False}),
+    "Panda, camera on the hand": (PandaCell, {"in_hand": True}),
+    "six axes, camera next to the arm": (HandEyeCell, {"in_hand": False}),
+    "six axes, camera on the hand": (HandEyeCell, {"in_hand": True}),
+    "six axes, 1 of 10 rows wrong": (HandEyeCell, {"in_hand": True}),
+    "SCARA, camera on the hand": (HandEyeCell, {"in_hand": True, "four_axes": True}),
+    "SCARA, camera next to the arm": (HandEyeCell, {"in_hand": False, "four_axes": True}),
+}
+
+
+def by_opencv(sights: Sights, solver: int) -> tuple[np.ndarray, np.ndarray]:
+    """Camera and board (4, 4) by one of OpenCV's solvers."""
+    arm = np.linalg.inv(sights.between)
+    parts = arm[:, :3, :3], arm[:, :3, 3], sights.board[:, :3, :3], sights.board[:, :3, 3]
+    ends = np.tile(np.eye(4), (2, 1, 1))
+    ends[0, :3, :3], place = cv2.calibrateHandEye(*map(list, parts), method=solver)
+    ends[0, :3, 3] = place.ravel()
+    boards = arm @ ends[0] @ sights.board
+    ends[1, :3, :3] = Rotation.from_matrix(boards[:, :3, :3]).mean().as_matrix()
+    ends[1, :3, 3] = boards[:, :3, 3].mean(axis=0)
+    return ends[0], ends[1]
+
+
+def draw(cell: HandEyeCell, pictures: int, rendered: bool, wrong: int) -> list[float]:
+    """The place over its deviation; held-out errors [px]: ours, the floor, and OpenCV's.
+
+    Args:
+        wrong: how many rows have the pose of the row before.
+    """
+    flange = cell.flange(pictures + FRESH)
+    said, views = cell.said(flange), cell.views(flange)
+    said[1 : wrong + 1] = said[:wrong].copy()
+    if rendered:
+        shown = [cell.draw(pose) for pose in cell.seen(flange[:pictures])]
+        views[:pictures] = [find_corners(cell.board, picture) for picture in shown]
+    lens = find_lens([(cell.board, view) for view in views[:pictures]], cell.lens.size).lens
+    seen = [sighting(cell.board, lens, view, True, False) for view in views[:pictures]]
+    board, optics = optics_of(lens, seen)
+    height = (float(cell.target[2, 3]), 1e-4) if cell.four_axes else None
+    sights = Sights(said[:pictures], board, cell.in_hand, optics, height)
+    found = calibrate_hand_eye(sights)
+    own_lens = moved_lens(lens, found.optics[len(BOARD) :]) or lens
+
+    def error(camera, board, lens):
+        between = np.linalg.inv(said) if cell.in_hand else said
+        off = []
+        for view, pose in zip(views[pictures:], between[pictures:], strict=True):
+            expected, _ = projected(cell.board.points, lens, np.linalg.inv(camera) @ pose @ board)
+            off.append(np.sum((view.pixels - expected) ** 2, axis=1).mean())
+        return float(np.sqrt(np.mean(off)))
+
+    off = displacements(found.camera[None], cell.camera[None])[0, :3]
+    ours = error(found.camera, found.board, own_lens)
+    floor = error(cell.camera, cell.target, cell.lens)
+    solvers = [] if cell.four_axes else SOLVERS
+    others = [error(*by_opencv(sights, solver), lens) for solver in solvers]
+    return [float(np.linalg.norm(off) / found.deviations(0)[0]), ours, floor, *others]
+
+
+def main(draws: int = 20, rendered: bool = False) -> None:
+    """Print a row for each cell and number of pictures."""
+    names = "px", "OpenCV", "floor", "ratio, median", "largest", "of the floor", "excess"
+    print("|", " | ".join(("cell", "pictures", *names, "place within three")), "|")
+    print("|" + " --- |" * 10)
+    for name, (cell, kind) in CELLS.items():
+        for pictures in (15, 30):
+            wrong = pictures // 10 if "wrong" in name else 0
+            rows = [draw(cell(seed, **kind), pictures, rendered, wrong) for seed in range(draws)]
+            place, ours, floor, *others = np.array(rows).T
+            each = np.array(others) if others else np.full((1, draws), np.nan)
+            best = each.min(axis=0)
+            ratio, lowest = ours / best, np.median(floor / best)
+            beyond = np.sum(np.array([ours, *each]) ** 2 - floor**2, axis=1)
+            excess = np.sqrt(beyond[0] / beyond[1:].min())
+            numbers = [*(np.median(px) for px in (ours, best, floor, ratio)), ratio.max()]
+            shown = " | ".join(f"{number:.3g}" for number in (*numbers, lowest, excess))
+            print(f"| {name} | {pictures} | {shown} | {np.sum(place < 3)} of {draws} |", flush=True)
+
+
+if __name__ == "__main__":
+    shown = "--rendered" in sys.argv
+    main(4 if shown else 20, shown)

@@ -1,0 +1,384 @@
+"""Hand-eye calibrations by flange poses: what they find, what they refuse, and what they write."""
+
+import re
+import tomllib
+from contextlib import redirect_stderr
+from dataclasses import replace
+from io import StringIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from recalib.identification.hand_eye import calibrate_hand_eye, held_out
+from recalib.identification.model.linearisation import displacements
+from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
+from recalib.laboratory.hand_eye.pose_table import read_poses
+from recalib.vision.views import projected
+from tests.vision.hand_eye_cells import HandEyeCell, turned
+from tests.vision.rendering import Cell
+
+POSES = 20
+WAYS = "ros", "ur", "abb", "kuka", "fanuc", "staubli", "ZYZ", "xyx", "YXZ"
+SIDES = {True: "hand", False: "fixed"}
+
+
+def off(found: np.ndarray, true: np.ndarray) -> np.ndarray:
+    """m and rad (2,), from a pose to the true one."""
+    step = displacements(found[None], true[None])[0]
+    return np.array([np.linalg.norm(step[:3]), np.linalg.norm(step[3:])])
+
+
+def written(poses: np.ndarray, way: str = "ros", scale: float = 1.0) -> str:
+    """A table of numbers alone."""
+    turns = Rotation.from_matrix(poses[:, :3, :3])
+    if len(way) == 3 and way.lower().strip("xyz") == "":  # as ZYZ
+        numbers, scale = turns.as_euler(way, degrees=True), 1e3 * scale
+    else:
+        numbers = {
+            "ros": turns.as_quat,
+            "ur": turns.as_rotvec,
+            "abb": lambda: turns.as_quat(scalar_first=True),
+            "kuka": lambda: turns.as_euler("ZYX", degrees=True),
+            "fanuc": lambda: turns.as_euler("xyz", degrees=True),
+            "staubli": lambda: turns.as_euler("XYZ", degrees=True),
+        }[way]()
+        scale *= 1.0 if way in ("ros", "ur") else 1e3
+    rows = np.concatenate([scale * poses[:, :3, 3], numbers], axis=1)
+    return "\n".join(" ".join(f"{number:.9g}" for number in row) for row in rows)
+
+
+@pytest.fixture
+def tables(tmp_path, monkeypatch):
+    """Write tables of a cell, in a folder of their own: its true and said poses."""
+    monkeypatch.chdir(tmp_path)
+
+    def write(cell: HandEyeCell, count: int = POSES, way: str = "ros", scale: float = 1.0):
+        flange = cell.flange(count)
+        said = cell.said(flange)
+        (tmp_path / "poses.txt").write_text(written(said, way, scale))
+        (tmp_path / "targets.txt").write_text(written(cell.seen(flange)))
+        return said
+
+    return write
+
+
+def calibrate(*options: str, camera: str = "fixed", way: str = "ros") -> int:
+    """By tables."""
+    inputs = ["--poses", "poses.txt", "--targets", "targets.txt", "--camera", camera]
+    ways = ["--convention", way, "--target-convention", "ros"]
+    return main(["calibrate", *inputs, *ways, "--out", "out", *options])
+
+
+@pytest.mark.parametrize("four_axes", [False, True])
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_places_and_their_deviations_are_right(in_hand, four_axes):
+    """Normalised by what is stated, errors are those of a normal distribution."""
+    distances = []
+    for seed in range(8):
+        cell = HandEyeCell(seed, in_hand, four_axes=four_axes)
+        found = calibrate_hand_eye(cell.sights(POSES, 0.0 if four_axes else None))
+        step = displacements(found.camera[None], cell.camera[None])[0]
+        distances.append(step @ np.linalg.solve(found.covariance[:6, :6], step))
+        assert found.accuracy == pytest.approx([cell.position, cell.rotation], rel=0.6)
+    assert 6 * 0.4 < np.mean(distances) < 6 * 1.8
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_poses_of_other_pictures_count_for_nothing(in_hand):
+    sights = (cell := HandEyeCell(1, in_hand)).sights(POSES)
+    mixed, rows = sights.flange.copy(), [2, 7, 11, 13]
+    mixed[rows] = mixed[[7, 11, 13, 2]]
+    found = calibrate_hand_eye(replace(sights, flange=mixed))
+    assert found.outliers.tolist() == rows
+    assert off(found.camera, cell.camera)[0] < 4 * found.deviations(0)[0]
+
+
+def test_an_exact_arm_leaves_the_noise_of_the_corners():
+    cell = HandEyeCell(3, True, position=0.0, rotation=0.0)
+    found = calibrate_hand_eye(cell.sights(POSES))
+    assert found.accuracy[0] < 5e-5
+    assert off(found.camera, cell.camera)[0] < 2e-4
+
+
+@given(st.integers(0, 100), st.booleans(), st.booleans())
+@settings(max_examples=15, deadline=None)
+def test_frames_do_not_matter(seed, in_hand, moved_base):
+    """A base elsewhere moves what is in the base, and another flange frame what is in that."""
+    sights = HandEyeCell(seed, in_hand).sights(10)
+    rng = np.random.default_rng(seed)
+    step = turned(rng.normal(size=(1, 3)), rng.normal(size=(1, 3)))[0]
+    # an error of the flange has the same size in every base, but not about every point of the tool
+    flange = step @ sights.flange if moved_base else sights.flange @ turned(rng.normal(size=(1, 3)))
+    one, other = calibrate_hand_eye(sights), calibrate_hand_eye(replace(sights, flange=flange))
+    seen = [found.predict(found.sights) for found in (one, other)]
+    assert np.abs(displacements(*seen)).max() < 2e-4
+    assert other.accuracy == pytest.approx(one.accuracy, rel=0.1)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_conventions(way, tmp_path):
+    rng = np.random.default_rng(5)
+    poses = turned(rng.normal(size=(9, 3)), rng.normal(size=(9, 3)))
+    (path := tmp_path / "poses.txt").write_text(written(poses, way))
+    assert read_poses(path, way).poses == pytest.approx(poses, abs=1e-6)
+
+
+@pytest.mark.parametrize("rows", [1, 4])
+@pytest.mark.parametrize("count", [12, 16])
+def test_matrices(rows, count, tmp_path):
+    rng = np.random.default_rng(5)
+    poses = turned(rng.normal(size=(9, 3)), rng.normal(size=(9, 3)))
+    if rows == 4 and count == 12:
+        pytest.skip("three rows each are not distinguishable from three rows of four numbers")
+    lines = poses[:, : count // 4].reshape(-1, count // rows)
+    text = "\n".join(["9", *(", ".join(f"{number:.9f}" for number in line) for line in lines)])
+    (path := tmp_path / "poses.txt").write_text(text)
+    assert read_poses(path).poses == pytest.approx(poses, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("1 2 3 4 5 6\n1 2 3", "its rows have different lengths"),
+        ("1 2 3 4 5 6", "it has no headings; try: --convention"),
+        ("x [m],y [m],z [m]\n1,2,3", "it has no rotation; expected: qx, qy, qz, qw"),
+        ("x [m],y [m],z [m],qx,qy,qz,qw\n1,2,3,0,0,0,2", "the rotation in row 1 has the norm 2"),
+        (
+            "-1 0 0 1 0 1 0 1 0 0 1 1",
+            "it has a matrix that is not a rotation: Non-positive determinant",
+        ),
+        ("1 0 0 512 0 1 0 80 0 0 1 300", "Is its unit right?"),
+    ],
+)
+def test_a_bad_table_is_refused(text, message, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "poses.txt").write_text(text)
+    main(["calibrate", "--poses", "poses.txt", "--targets", "poses.txt", "--out", "out"])
+    assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+@pytest.mark.parametrize("way", ["ur", "abb", "kuka"])
+def test_a_result_by_tables(in_hand, way, tables, tmp_path):
+    tables(cell := HandEyeCell(2, in_hand), way=way)
+    assert calibrate(camera=SIDES[in_hand], way=way) == DONE
+    result = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())
+    for name, true in (("camera", cell.camera), ("board", cell.target)):
+        place = result[name]
+        assert place["in"] == ("flange" if (name == "camera") == in_hand else "base")
+        matrix = np.array(place["matrix"])
+        length, angle = (float(text.split()[0]) for text in place["deviation"])
+        assert (off(matrix, true) < 4 * np.array([1e-3 * length, np.radians(angle)])).all()
+        same = [Rotation.from_quat(place["quaternion_xyzw"])]
+        same += [Rotation.from_rotvec(place["rotation_vector"])]
+        same += [Rotation.from_euler("xyz", place["roll_pitch_yaw_deg"], degrees=True)]
+        numbers = re.findall(r"[-\d.]+", place["urdf"].partition("rpy")[2])[:3]
+        same += [Rotation.from_euler("xyz", [float(number) for number in numbers])]
+        for turn in same:
+            assert turn.as_matrix() == pytest.approx(matrix[:3, :3], abs=1e-5)
+    assert result["robot"]["millimetres"] == pytest.approx(0.5, rel=0.5)
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--inverse", "flange"], "the flange's poses are those of the base in it"),
+        (["--inverse", "targets"], "the target's are those of the camera in it"),
+        (
+            ["--convention", "XYZ"],
+            "the flange's rotations are angles about the moving axes z, y, x",
+        ),
+        (["--convention", "fanuc"], "angles about the moving axes z, y, x (--convention)"),
+    ],
+)
+def test_what_is_read_in_the_wrong_way_is_named(in_hand, options, message, tables, capsys):
+    tables(HandEyeCell(4, in_hand), way="kuka")
+    assert calibrate(*options, camera=SIDES[in_hand], way="kuka") == REFUSED
+    assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_the_other_side_is_named(in_hand, tables, capsys):
+    tables(HandEyeCell(4, in_hand))
+    assert calibrate(camera=SIDES[not in_hand]) == REFUSED
+    assert f"--camera {SIDES[in_hand]}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("scale", "message"),
+    [
+        (1.04, "larger than described"),
+        (0.97, "smaller than described"),
+        (1e-3, "likely in metres labelled mm"),
+        (10.0, "likely in millimetres labelled cm"),
+    ],
+)
+def test_wrong_sizes_are_named(scale, message, tables, capsys):
+    tables(HandEyeCell(6, False), scale=scale)
+    assert calibrate() == REFUSED
+    assert message in capsys.readouterr().err
+
+
+def alike(cell: HandEyeCell) -> np.ndarray:
+    """Poses of one orientation."""
+    flange = cell.flange(POSES)
+    flange[:, :3, :3] = flange[0, :3, :3]
+    return flange
+
+
+def about_one_axis(cell: HandEyeCell) -> np.ndarray:
+    """Turns about one axis of the tool."""
+    flange = cell.flange(POSES)
+    turns = np.outer(cell.rng.uniform(-1, 1, POSES), [0.6, 0.0, 0.8])
+    flange[:, :3, :3] = flange[0, :3, :3] @ turned(turns)[:, :3, :3]
+    return flange
+
+
+FAULTS = {  # what is done to poses of the flange, true ones and (n, 4, 4); what is said
+    "one axis": (about_one_axis, None, "all turns are about one axis"),
+    "alike": (alike, None, "all poses are turned alike"),
+    "too few": (lambda cell: cell.flange(4), None, "4 poses can be used; expected: at least 6"),
+    "direction": (None, np.linalg.inv, "the flange's poses are those of the base in it"),
+    "board size": (None, lambda said: scaled(said, 1.05), "larger than described"),
+    "millimetres as metres": (None, lambda said: scaled(said, 1e3), "Is its unit right?"),
+    "metres as millimetres": (None, lambda said: scaled(said, 1e-3), "in metres labelled mm"),
+}
+
+
+def scaled(poses: np.ndarray, scale: float) -> np.ndarray:
+    """Poses with other positions."""
+    poses = poses.copy()
+    poses[:, :3, 3] *= scale
+    return poses
+
+
+@given(st.sampled_from([*FAULTS]), st.integers(0, 10_000), st.booleans(), st.sampled_from(WAYS))
+@settings(max_examples=25, deadline=None)
+def test_what_cannot_be_is_named_in_one_sentence(fault, seed, in_hand, way):
+    """In generated cells, by the pose tables of every controller."""
+    drawn, change, message = FAULTS[fault]
+    cell = HandEyeCell(seed, in_hand, rotation=np.radians(0.02))
+    flange = drawn(cell) if drawn else cell.flange(POSES)
+    said = cell.said(flange)
+    with TemporaryDirectory() as folder, redirect_stderr(StringIO()) as stderr:
+        poses, targets = Path(folder, "poses.txt"), Path(folder, "targets.txt")
+        poses.write_text(written(change(said) if change else said, way))
+        targets.write_text(written(cell.seen(flange)))
+        inputs = ["--poses", str(poses), "--convention", way, "--targets", str(targets)]
+        where = ["--target-convention", "ros", "--camera", SIDES[in_hand]]
+        code = main(["calibrate", *inputs, *where, "--out", str(Path(folder, "out"))])
+    lines = [line for line in stderr.getvalue().splitlines() if not line.startswith("...")]
+    assert code == REFUSED and len(lines) == 1 and message in lines[0], lines
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_four_axes_need_a_height(in_hand, tables, tmp_path, capsys):
+    tables(cell := HandEyeCell(8, in_hand, four_axes=True))
+    assert calibrate(camera=SIDES[in_hand]) == REFUSED
+    assert "--height" in capsys.readouterr().err
+    height = f"{1e3 * cell.target[2, 3]:.4f} mm +- 0.2 mm"
+    assert calibrate("--height", height, camera=SIDES[in_hand]) == DONE
+    place = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())["camera"]
+    length = 1e-3 * float(place["deviation"][0].split()[0])
+    assert off(np.array(place["matrix"]), cell.camera)[0] < 4 * length
+
+
+def test_poses_that_fit_badly_are_no_result(tables, capsys):
+    cell = HandEyeCell(9, False, position=8e-3, rotation=np.radians(0.5))
+    tables(cell, 40)
+    assert calibrate() == NO_BETTER
+    assert "Careful: poses and targets do not fit well" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_pictures(in_hand, tmp_path, monkeypatch, capsys):
+    """Drawn ones: the errors that are stated are those in further pictures."""
+    monkeypatch.chdir(tmp_path)
+    cell = HandEyeCell(10, in_hand)
+    flange = cell.flange(12)
+    (tmp_path / "pictures").mkdir()
+    for number, pose in enumerate(cell.seen(flange), 1):
+        cv2.imwrite(str(tmp_path / f"pictures/{number}.png"), cell.draw(pose))
+    (tmp_path / "board.toml").write_text(cell.board.described())
+    (tmp_path / "poses.txt").write_text(written(cell.said(flange), "kuka"))
+    inputs = ["--poses", "poses.txt", "--convention", "kuka", "--pictures", "pictures"]
+    where = ["--board", "board.toml", "--camera", SIDES[in_hand], "--out", "out"]
+    assert main(["calibrate", *inputs, *where]) == DONE
+    assert "Corners in pictures that were not learned from are" in capsys.readouterr().out
+    result = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())
+    length, angle = (float(text.split()[0]) for text in result["camera"]["deviation"])
+    stated = np.array([1e-3 * length, np.radians(angle)])
+    assert (off(np.array(result["camera"]["matrix"]), cell.camera) < 4 * stated).all()
+    held_out = result["held_out"]
+    squares = held_out["pixels_of_corner_noise"] ** 2 + held_out["pixels_of_the_robot"] ** 2
+    assert held_out["pixels"] ** 2 == pytest.approx(squares, rel=1e-2)
+    assert 0.3 < held_out["millimetres"] < 3
+    assert (tmp_path / "out/lens.yaml").exists()
+    box = [f"{1e2 * low:.1f} cm to {1e2 * high:.1f} cm" for low, high in limits_of(flange)]
+    options = ["--count", "6", "--cone", "40 deg", "--box", *box, "--out", "next.csv"]
+    assert main(["next", "out", "--poses", *options]) == DONE
+    before, after = map(float, re.findall(r"([\d.]+) mm", capsys.readouterr().out))
+    assert after < 0.9 * before
+    assert before == pytest.approx(length, rel=0.5)
+    proposed = read_poses("next.csv").poses
+    assert len(proposed) == 6
+    for pose in proposed:
+        shown = cell.seen(pose)
+        middle = shown[:3, :3] @ cell.board.points.mean(axis=0) + shown[:3, 3]
+        assert shown[:3, 2] @ middle / np.linalg.norm(middle) > np.cos(np.radians(45))
+        pixels, _ = projected(cell.board.points, cell.lens, shown)
+        assert np.mean((pixels > 0) & (pixels < cell.lens.size)) > 0.5
+        low, high = np.array(limits_of(flange)).T
+        assert ((pose[:3, 3] > low - 1e-3) & (pose[:3, 3] < high + 1e-3)).all()
+
+
+def limits_of(flange: np.ndarray) -> list[tuple[float, float]]:
+    """Ranges of x, y and z that a flange took, a little wider."""
+    places = flange[:, :3, 3]
+    return [*zip(places.min(axis=0) - 0.02, places.max(axis=0) + 0.02, strict=True)]
+
+
+def test_held_out_residuals_are_those_without_the_pose():
+    sights = HandEyeCell(11, True).sights(10)
+    residuals = held_out(calibrate_hand_eye(sights))
+    for row in range(10):
+        without = calibrate_hand_eye(sights[np.setdiff1d(np.arange(10), row)])
+        expected = without.residuals(sights[np.array([row])])[0]
+        assert np.linalg.norm(residuals[row] - expected) < 0.3 * np.linalg.norm(expected) + 1e-4
+
+
+@pytest.mark.parametrize("joints", [True, False])
+def test_with_joints_and_a_urdf_the_arm_is_calibrated(joints, tmp_path, monkeypatch, capsys):
+    """By the same table and the same pictures."""
+    monkeypatch.chdir(tmp_path)
+    cell = Cell(3, True)
+    postures = cell.postures(14)
+    (tmp_path / "pictures").mkdir()
+    headings = ["picture", *"xyzabc", *(cell.arm.joints if joints else ())]
+    rows = [",".join(f"{name} [rad]" if "joint" in name else name for name in headings)]
+    poses = written(cell.tool(postures), "kuka").splitlines()
+    for number, (pose, angles) in enumerate(zip(poses, postures, strict=True)):
+        shown = cell.picture(cell.board_poses(angles[None])[0])
+        cv2.imwrite(str(tmp_path / f"pictures/{number}.png"), shown)
+        own = [f"{angle:.9f}" for angle in angles] if joints else []
+        rows.append(",".join([f"{number}.png", *pose.split(), *own]))
+    (tmp_path / "poses.csv").write_text("\n".join(rows))
+    (tmp_path / "board.toml").write_text(cell.board.described())
+    inputs = ["--poses", "poses.csv", "--convention", "kuka", "--pictures", "pictures"]
+    where = ["--board", "board.toml", "--camera", "hand"]
+    assert main(["calibrate", *inputs, *where, "--out", "hand_eye"]) == DONE
+    arm = ["panda.urdf", "--tool", "panda_link8"]
+    ended = main(["calibrate", *arm, *inputs, *where, "--out", "arm"])
+    if joints:
+        assert ended == DONE
+        assert (tmp_path / "arm/arm.urdf").exists()
+    else:
+        assert ended == REFUSED
+        assert "the column of joint 'panda_joint1' is missing" in capsys.readouterr().err
