@@ -56,7 +56,6 @@ Name = _text(  # of a robot, a scenario, a learner: it becomes part of paths
     r"^[A-Za-z][A-Za-z0-9_]*$", "a name (letters, digits and _, beginning with a letter)", 60
 )
 StudyName = _text("^[a-z][a-z0-9_]*$", "a name (small letters, digits and _, a letter first)", 40)
-SeriesName = _text("^[a-z]+$", "a name of small letters", 40)
 Url = _text(r"^https://\S+$", "an address that begins with https://", 300)
 Checksum = _text("^[0-9a-f]{64}$", "64 digits from 0 to f", 64)
 Text = Annotated[str, Field(strict=True, min_length=1, max_length=300)]

@@ -17,7 +17,7 @@ from replication.config.switches import IMPROVED, RITTER
 from replication.judgement.claims import judge
 from replication.judgement.evidence import Evidence
 from replication.judgement.findings import written
-from replication.plots.drawing import FUNCTIONS
+from replication.plots.drawing import drawn
 from replication.plots.figures import Figure
 from replication.plots.style import STYLE, plt
 from replication.running.outputs import write
@@ -103,11 +103,11 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
     distance = (assignments - assignments.loc[7]).abs().max(axis=1)
     yield f"{RESULTS}/assignments/{study.robot}.parquet", assignments.assign(distance=distance)
     scales = np.repeat([0.1, 1.0, 3.0], 4)
-    ensemble = {"series": "scaled", "scale": scales}
+    ensemble = {"scale": scales}
     for error, value in zip(ERRORS, INITIAL, strict=True):
         errors = scales * value * np.tile([0.8, 1, 1.1, 1.3], 3)
         ensemble |= {f"initial_{error}": errors, f"final_{error}": errors * LEFT}
-    yield f"{RESULTS}/ensemble/improved.parquet", pd.DataFrame(ensemble)
+    yield f"{RESULTS}/ensemble.parquet", pd.DataFrame(ensemble)
     balls = pd.MultiIndex.from_product(
         [["theta", "jacobian"], ["intact", "damaged"], [0.1, 1.0, 10.0], range(3)],
         names=["kind", "start", "scale", "ball"],
@@ -196,7 +196,7 @@ def figures(evidence):
     found = {}
     with plt.rc_context(STYLE):
         for its in Figure:
-            found[its] = FUNCTIONS[its.value](evidence)
+            found[its] = drawn(its, evidence)
             found[its].draw_without_rendering()
     yield found
     plt.close("all")

@@ -93,7 +93,7 @@ def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project, tmp_pat
             else table[(table["variant"] != RITTER) | (table["iterations"] <= 1000)]
         )
 
-    figure = drawing.FUNCTIONS["steps"](Evidence(small, project(shortened)))
+    figure = drawing.drawn(Figure.STEPS, Evidence(small, project(shortened)))
     assert right_of(figure.axes[1])[0] == "> 1,000 (5×)"
     plt.close(figure)
 

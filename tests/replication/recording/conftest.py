@@ -43,7 +43,7 @@ class Files(NamedTuple):
 @pytest.fixture(scope="session")
 def small(study) -> Study:
     """The shipped study with two short trainings and damages of every kind."""
-    plan = {"scenarios": (OWN, INTACT), "robots": (), "own": {}, "switches": False, "ensemble": {}}
+    plan = {"scenarios": (OWN, INTACT), "robots": (), "own": {}, "switches": False}
     plan["learners"] = dict.fromkeys(LEARNERS, (ITERATIONS,))
     changes = {
         "experiments": study.experiments.model_copy(update=plan),

@@ -70,9 +70,6 @@ def few(study):
         "own": {"ritter": (20,)},
         "iterations": 20,
         "switches": False,
-        "ensemble": {
-            "improved": {"scaled": study.experiments.ensemble["improved"]["scaled"]},
-        },
     }
     rest = {
         "search": {"trials": 16, "near_trials": 16, "runs": 2, "fresh": 4, "doublings": 0},
@@ -136,7 +133,7 @@ def all_jobs(study, folder, monkeypatch):
         train.train(study, *place, files[place], settings, *its)
     for learner in ("improved", "ritter"):
         tune(study, learner, own)
-    ensemble.train_draws(study, "improved", settings)
+    ensemble.train_ensemble(study, settings)
     for learner in ("affine", "improved"):
         benchmark.compete(study, learner, settings)
     measured.learn(study, own, settings)
