@@ -112,7 +112,8 @@ check: setup ## only compare the final errors with their bands
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
 
 bench: setup ## measure moves per second, and their ratio to a bare loop
-	$(SNAKEMAKE) --forcerun bench -- $(RESULTS)/bench.txt
+	$(SNAKEMAKE) --quiet rules reason host -- results/robots/ur10/links_encoders.json
+	.venv/bin/python -m tests.bars.moves results/robots/ur10/links_encoders.json
 
 latency: vision live ## measure how fast a live calibration answers, and a corrected command
 	.venv/bin/python -m tests.bars.latency
