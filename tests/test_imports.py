@@ -5,7 +5,7 @@ import tomllib
 import pytest
 from importlinter.cli import lint_imports
 
-from replication.running.layers import LAYERS
+from replication.running import LAYERS
 from tests.conftest import ROOT, loaded_with
 
 # Each takes a tenth of a second or more to import: who waits for it needs it.

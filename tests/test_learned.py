@@ -30,8 +30,7 @@ from recalib import (
     load,
     save,
 )
-from recalib.learners.kinds import KINDS
-from recalib.learners.learned import VERSION, read
+from recalib.learners import KINDS, VERSION, read
 from tests.spoiling import spoil
 
 RUNS = 2

@@ -9,8 +9,8 @@ from recalib import OFFSETS, BadMeasurement, ExternalRobot, Observations, Outcom
 from recalib.identification.calibration import calibrate
 from recalib.identification.estimation import identify
 from recalib.identification.model.error_model import ErrorModel
-from recalib.learners.kinds import KINDS
-from recalib.loop.moves import check_moves
+from recalib.learners import KINDS
+from recalib.loop import check_moves
 
 RUNS = 2
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 6))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from recalib.errors import InvalidFile, InvalidSetting, OtherRobot
+from recalib.errors import InvalidSetting, OtherRobot
 from recalib.files.archives import read_archive, refused, write_archive
 from recalib.learners.kinds import class_of, kind_of
 from recalib.loop.interfaces import Savable, State

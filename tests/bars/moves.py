@@ -1,4 +1,4 @@
-"""How fast moves are, beside a bare loop over Pinocchio: python -m tests.bars.moves SCENARIO.json."""
+"""How fast moves are, beside a bare loop of Pinocchio: python -m tests.bars.moves SCENARIO.json."""
 
 import sys
 from timeit import timeit

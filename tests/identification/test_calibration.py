@@ -5,7 +5,7 @@ from recalib import JOINT_ERRORS, OFFSETS, Calibration, EccentricGear, Observati
 from recalib.identification import calibration as module
 from recalib.identification.calibration import calibrate
 from recalib.identification.model.error_model import held
-from recalib.learners.geometric import angles_for
+from recalib.learners import angles_for
 from tests.identification.test_estimation import postures
 
 

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames, load_arm
-from recalib.files.outputs import write_new
+from recalib.files import write_new
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.estimation import identify
 from recalib.identification.model.error_model import ErrorModel

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recalib.learners.nets import nearest, regular_grid
+from recalib.learners import nearest, regular_grid
 
 
 def test_the_grid_halves_the_boxes_it_cuts_or_reaches_the_faces():

@@ -6,14 +6,10 @@ import time
 import pytest
 import yaml
 
-from recalib.damaged.imperfections import Imperfection
-from replication.config import schema
-from replication.config.messages import MOST_SHOWN, InvalidConfiguration
-from replication.config.reading import read_study
-from replication.config.study import Study
-from replication.running.checks.consistency import check
-from replication.running.checks.geometry import check_robots
-from replication.running.studies import study_of
+from recalib.damaged import Imperfection
+from replication.config import MOST_SHOWN, InvalidConfiguration, Study, read_study, schema
+from replication.running import study_of
+from replication.running.checks import check, check_robots
 from tests.conftest import ROOT
 
 SHIPPED = ROOT / "config.yaml"

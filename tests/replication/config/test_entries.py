@@ -21,7 +21,7 @@ from recalib import (
     Repeatability,
     Sag,
 )
-from replication.config.damages import Assigned, Entry, describe
+from replication.config import Assigned, Entry, describe
 
 ENTRY = TypeAdapter(Entry)
 WRITTEN = [

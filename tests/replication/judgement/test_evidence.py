@@ -3,9 +3,9 @@
 import pandas as pd
 import pytest
 
-from replication.judgement.evidence import Evidence, NotMeasured
-from replication.running.outputs import write
-from replication.training.measured import ERRORS
+from replication.judgement import Evidence, NotMeasured
+from replication.running import write
+from replication.training import ERRORS
 
 
 @pytest.fixture

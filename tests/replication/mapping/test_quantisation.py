@@ -1,14 +1,8 @@
 import numpy as np
 import pytest
 
-from replication.mapping.quantisation import (
-    RATES,
-    WIDTHS,
-    k_means,
-    kohonen,
-    quantisation,
-    quantisation_error,
-)
+from replication.mapping import RATES, WIDTHS, k_means, kohonen, quantisation_error
+from replication.mapping.quantisation import quantisation
 
 
 def test_the_error_is_the_root_mean_square_distance_to_the_nearest_centre():

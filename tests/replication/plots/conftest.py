@@ -4,26 +4,19 @@ import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
 
-from replication.campaign.setups import DESIGN
-from replication.campaign.variants import DOUBLE, TWO_MAPS, variants
-from replication.config.reading import read_study
-from replication.config.shipped import CAMPAIGN, RESULTS
-from replication.config.study import Study
-from replication.config.switches import IMPROVED, RITTER
+from replication.campaign import DESIGN, DOUBLE, TWO_MAPS
+from replication.campaign.variants import variants
+from replication.config import CAMPAIGN, IMPROVED, RESULTS, RITTER, Study, read_study
+from replication.judgement import Evidence, written
 from replication.judgement.claims import judge
-from replication.judgement.evidence import Evidence
-from replication.judgement.findings import written
-from replication.plots.drawing import drawn
-from replication.plots.figures import Figure
-from replication.plots.style import STYLE, plt
-from replication.running.outputs import write
-from replication.training.competitors import UNCORRECTED
-from replication.training.measured import ERRORS, KINDS
-from replication.training.plan import places, throughout
+from replication.plots import STYLE, Figure, drawn
+from replication.running import write
+from replication.training import ERRORS, KINDS, UNCORRECTED, places, throughout
 from tests.conftest import ROOT
 
 NEEDED = {  # iterations for the improved system's errors, in the reference study

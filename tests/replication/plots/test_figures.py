@@ -2,20 +2,28 @@
 
 import runpy
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from replication.campaign.variants import DOUBLE
-from replication.config.switches import IMPROVED, RITTER
+from replication.campaign import DOUBLE
+from replication.config import IMPROVED, RITTER
+from replication.judgement import Crossing, Evidence, Remaining
 from replication.judgement.claims import claims
-from replication.judgement.contrasts import Crossing, Remaining
-from replication.judgement.evidence import Evidence
-from replication.plots import drawing, steady
-from replication.plots.contrasts import LABELS, rows
-from replication.plots.figures import APART, Figure, figures_of
-from replication.plots.learning import leading
-from replication.plots.palette import BOTH, STYLES, styles_of, styles_of_trainings
-from replication.plots.style import plt
+from replication.plots import (
+    APART,
+    BOTH,
+    LABELS,
+    STYLES,
+    Figure,
+    drawing,
+    figures_of,
+    leading,
+    rows,
+    steady,
+    styles_of,
+    styles_of_trainings,
+)
 from tests.conftest import ROOT
 from tests.replication.plots.conftest import NEEDED, NOISE, disturbed
 

@@ -9,12 +9,9 @@ import pytest
 from rerun.chunk import RrdReader
 
 from recalib import BaseShift, EncoderShift, LinkShortening, Noise, Sag
-from replication.config.study import Study
-from replication.recording.phases import CLOCK
-from replication.recording.recorded import recorded_learners, recorded_places
-from replication.recording.writing import record
-from replication.scenarios.plants import Resolved
-from replication.scenarios.resolving import resolve
+from replication.config import Study
+from replication.recording import CLOCK, record, recorded_learners, recorded_places
+from replication.scenarios import Resolved, resolve
 from replication.training.train import train
 
 OWN, INTACT = "links_encoders", "intact"

@@ -1,6 +1,6 @@
 import pandas as pd
 
-from replication.training.benchmark import Timed, compete, measured_at
+from replication.training import Timed, compete, measured_at
 
 
 def of(study, **update):

@@ -2,8 +2,8 @@
 
 import pytest
 
-from replication.config.study import Ensemble
-from replication.training.ensemble import train_ensemble
+from replication.config import Ensemble
+from replication.training import train_ensemble
 from tests.replication.conftest import settings_of
 
 

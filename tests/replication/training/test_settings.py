@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from recalib import RecalibError, Rules
-from replication.config.switches import SWITCHES
-from replication.training.settings import Space
-from replication.training.tuned import Tuned, rules_of, trained
+from replication.config import SWITCHES
+from replication.training import Space, Tuned, rules_of, trained
 
 
 @pytest.fixture
