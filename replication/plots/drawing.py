@@ -15,7 +15,7 @@ from replication.plots.style import STYLE, save
 
 def drawn(figure: Figure, evidence: Evidence) -> matplotlib.figure.Figure:
     """A figure of a study's results. Raises NotMeasured."""
-    module, _, function = figure.function.partition(".")
+    module, _, function = figure.value.partition(".")
     found: matplotlib.figure.Figure = getattr(
         import_module(f"replication.plots.{module}"), function
     )(evidence)

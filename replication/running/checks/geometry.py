@@ -58,8 +58,8 @@ def check_robots(study: Study) -> list[Mistake]:
         each = (list(_of_assignment(robot, study)) for robot in assigned)
         found += next(filter(None, each), [])  # the others' would say the same again
     if study.experiments.evidence and not found:
-        found += _of_mapping(robots[study.robot])
-        found += _of_ensemble(study, robots[study.robot])
+        its_own = robots[study.robot]
+        found += list(_of_mapping(its_own)) or _of_ensemble(study, its_own)
     return found
 
 

@@ -140,7 +140,7 @@ def test_the_shipped_configuration_passes_in_no_time():
 def test_a_redundant_arm_is_asked_for_no_evidence():
     study = read_study(SHIPPED, ROOT / "workflow" / "studies" / "panda.yaml")
     assert check_robots(study) == []
-    judged = study.experiments.model_copy(update={"evidence": True, "ensemble": {}})
+    judged = study.experiments.model_copy(update={"evidence": True})
     (mistake,) = check_robots(study.model_copy(update={"experiments": judged}))
     assert mistake.path == ("experiments", "evidence")
     assert "expected: false with the panda, an arm of 7 joints" in mistake.fault
