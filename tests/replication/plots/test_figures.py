@@ -20,12 +20,11 @@ from replication.plots import (
     figures_of,
     leading,
     rows,
-    steady,
     styles_of,
     styles_of_trainings,
 )
 from tests.conftest import ROOT
-from tests.replication.plots.conftest import NEEDED, NOISE, disturbed
+from tests.replication.plots.conftest import NEEDED, disturbed
 
 
 def files(folder):
@@ -164,17 +163,6 @@ def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_pa
     quick = other.model_copy(update={"experiments": plan})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
     assert figures_of(quick) == [its.file for its in trained]
-
-
-def test_rounding_keeps_plain_numbers_and_moves_nothing_that_is_seen():
-    values = np.array([0.0, 1, 3, 0.25, 1000, -7.5, 12345.0, 1.2345e-3])
-    assert np.allclose(steady.rounded(values), values, rtol=1e-3)
-    assert steady.rounded([0, 1, 3, 0.25, 1000]).tolist() == [0, 1, 3, 0.25, 1000]
-    halves = np.array([0.12345, 2.5005, 10.015])
-    for sign in (1, -1):
-        near = steady.rounded(halves * (1 + sign * NOISE))
-        assert (steady.rounded(halves) == near).all()
-    assert steady.rounded([3e-11], 0.1).tolist() == [0], "nothing on this axis"
 
 
 def test_every_learner_looks_like_itself_and_unlike_the_others(small):
