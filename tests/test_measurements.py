@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from recalib import OFFSETS, BadMeasurement, ExternalRobot, Observations, Outcome, position_error
-from recalib.identification.calibration import calibrate
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification import calibrate, identify
+from recalib.identification.model import ErrorModel
 from recalib.learners import KINDS
 from recalib.loop import check_moves
 

@@ -3,7 +3,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import JOINT_ERRORS, JOINT_WAVES, BaseShift, EccentricGear, EncoderShift, apply
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model import ErrorModel
 from replication.scenarios import nominal_robot
 from tests.arms import RAILED
 

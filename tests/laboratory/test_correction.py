@@ -23,8 +23,8 @@ from recalib import (
     position_error,
 )
 from recalib.files import write_archive
-from recalib.identification.calibration import calibrate
-from recalib.identification.model.frames import Frames
+from recalib.identification import calibrate
+from recalib.identification.model import Frames
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.nominal import find_urdf
 from tests.arms import SCARA

@@ -4,8 +4,8 @@ import pytest
 import yourdfpy
 
 from recalib import OFFSETS, Calibration, load_arm
-from recalib.identification.estimation import Identification
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification import Identification
+from recalib.identification.model import ErrorModel
 from recalib.laboratory.urdf.origins import angles_of, corrected_urdf, with_origins
 from recalib.nominal import find_urdf
 from tests.nominal.test_arms import ARMS
