@@ -11,5 +11,4 @@ from .kinds import kind_of as kind_of
 from .learned import VERSION as VERSION
 from .learned import read as read
 from .maps import Maps as Maps
-from .nets import nearest as nearest
 from .nets import regular_grid as regular_grid

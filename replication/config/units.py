@@ -16,19 +16,17 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from recalib.errors import InvalidQuantity
-
 MOST = 1_000_000  # iterations: more would run for days
 MOST_TIMES = 10_000  # of what is drawn, done or measured again and again
 
 
-def _expected(valid: str, read: Callable[[Any], Any] = lambda value: value) -> WrapValidator:
-    """Reads a value before its type does. Whatever is wrong with it, `valid` is what is said."""
+def _expected(valid: str) -> WrapValidator:
+    """Whatever is wrong with a value, `valid` is what is said."""
 
     def told(value: Any, validate: Callable[[Any], Any]) -> Any:
         try:
-            return validate(read(value))
-        except (InvalidQuantity, ValidationError):
+            return validate(value)
+        except ValidationError:
             raise PydanticCustomError("expected", valid) from None
 
     return WrapValidator(told)

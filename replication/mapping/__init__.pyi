@@ -5,9 +5,7 @@ from .propagation import grown as grown
 from .propagation import propagation_errors as propagation_errors
 from .quantisation import RATES as RATES
 from .quantisation import WIDTHS as WIDTHS
-from .quantisation import k_means as k_means
 from .quantisation import kohonen as kohonen
-from .quantisation import quantisation_error as quantisation_error
 from .solutions import are_same as are_same
 from .solutions import joint_solutions as joint_solutions
 from .true_mapping import mapping_jacobians as mapping_jacobians

@@ -2,7 +2,6 @@
 
 from .benchmark import Timed as Timed
 from .benchmark import compete as compete
-from .benchmark import measured_at as measured_at
 from .competitors import UNCORRECTED as UNCORRECTED
 from .competitors import make_peer as make_peer
 from .competitors import peers as peers
