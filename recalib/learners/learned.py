@@ -6,7 +6,7 @@ learner and what it was made with, and the robot. All other arrays are named RUN
 
 from collections.abc import Mapping
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,9 +14,7 @@ from recalib.errors import InvalidSetting, OtherRobot
 from recalib.files.archives import read_archive, refused, write_archive
 from recalib.learners.kinds import class_of, kind_of
 from recalib.loop.interfaces import Savable, State
-
-if TYPE_CHECKING:
-    from recalib.nominal.robots import Robot
+from recalib.nominal.robots import Robot
 
 FORMAT, VERSION = "recalib learner", 6
 WRITER = "recalib.save"
@@ -26,7 +24,7 @@ PROBES = 8  # joint angles at which the kinematics of two robots are compared
 Path = str | PathLike[str]
 
 
-def save(path: Path, learner: Savable, robot: "Robot") -> None:
+def save(path: Path, learner: Savable, robot: Robot) -> None:
     """Write what a learner has learned on a robot.
 
     Raises UnknownName (a learner of no known kind).
@@ -42,7 +40,7 @@ def save(path: Path, learner: Savable, robot: "Robot") -> None:
     write_archive(path, header, states)
 
 
-def load(path: Path, robot: "Robot", run: int | None = None) -> Savable:
+def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
     """The learner that `save` wrote, for the same robot.
 
     Args:
@@ -69,7 +67,7 @@ def load(path: Path, robot: "Robot", run: int | None = None) -> Savable:
     return learner
 
 
-def identity(robot: "Robot") -> dict[str, Any]:
+def identity(robot: Robot) -> dict[str, Any]:
     """What tells a robot from others, in the types of JSON: what it does, not what it is called."""
     joints = np.arange(len(robot.joints)) + 1
     angles = np.sin(np.outer(np.arange(PROBES) + 1, joints))  # rad, a mixture of all joints
