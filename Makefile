@@ -106,13 +106,14 @@ peers: tools ## compare our calibration with figaroh and robotkinecal, each in a
 	.venv/bin/python -m tests.peers $(addprefix --recording ,$(RECORDED))
 
 witness: setup ## train variants of three setups in a second implementation, from the paper alone, and compare (30 minutes)
-	.venv/bin/python -m tests.witness config.yaml workflow/campaign/design.csv workflow/campaign/outcomes.csv 0 1 2
+	.venv/bin/python -m tests.bars.witness config.yaml workflow/campaign/design.csv workflow/campaign/outcomes.csv 0 1 2
 
 check: setup ## only compare the final errors with their bands
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
 
 bench: setup ## measure moves per second, and their ratio to a bare loop
-	$(SNAKEMAKE) --forcerun bench -- $(RESULTS)/bench.txt
+	$(SNAKEMAKE) --quiet rules reason host -- results/robots/ur10/links_encoders.json
+	.venv/bin/python -m tests.bars.moves results/robots/ur10/links_encoders.json
 
 latency: vision live ## measure how fast a live calibration answers, and a corrected command
 	.venv/bin/python -m tests.bars.latency

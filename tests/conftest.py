@@ -31,13 +31,11 @@ from recalib import (
     apply,
     load_arm,
 )
-from recalib.learners.kinds import class_of
-from replication.config.reading import read_study
-from replication.config.study import Study
-from replication.scenarios.nominal import Nominal, nominal
-from replication.scenarios.plants import Resolved, nominal_controller
-from replication.scenarios.resolving import resolve
-from replication.training.competitors import make_peer, peers
+from recalib.learners import class_of
+from replication.config import Study, read_study
+from replication.scenarios import Nominal, Resolved, nominal_controller, resolve
+from replication.scenarios.nominal import nominal
+from replication.training import make_peer, peers
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
 settings.load_profile("untimed")

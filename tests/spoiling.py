@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from hypothesis import strategies as st
 
-from recalib.files.archives import write_archive
+from recalib.files import write_archive
 
 CHANGES = {
     "gone": lambda array: None,

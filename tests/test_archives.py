@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from recalib import InvalidFile
-from recalib.files.archives import flat, read_archive, write_archive
+from recalib.files import flat, read_archive, write_archive
 
 KIND = "an archive", 1
 GROUPS = {"0": {"near": {"theta": np.arange(3.0)}}, "1": {"moves": np.int64(3)}}

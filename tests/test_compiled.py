@@ -10,9 +10,8 @@ import numpy as np
 from numba import config
 
 from recalib import IMPROVED, Chain, HierarchicalLearner, Outcome, Schedule, Workspace, load_arm
-from recalib.learners.kernels import WAITING
-from recalib.nominal.chain import TOLERANCE
-from recalib.nominal.poses import COORDINATES
+from recalib.learners import WAITING
+from recalib.nominal import COORDINATES, TOLERANCE
 from recalib.numerics.compiled import compiled
 
 ROOT = Path(__file__).parents[1]

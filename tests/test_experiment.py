@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from recalib import InvalidSetting, Outcome, Plant, corrected, position_error, train
-from recalib.loop.training import SUMMARIES
+from recalib.loop import SUMMARIES
 from tests.learners.test_hierarchical import improved
 
 

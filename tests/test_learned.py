@@ -30,8 +30,7 @@ from recalib import (
     load,
     save,
 )
-from recalib.learners.kinds import KINDS
-from recalib.learners.learned import VERSION, join, read
+from recalib.learners import KINDS, VERSION, read
 from tests.spoiling import spoil
 
 RUNS = 2
@@ -66,24 +65,14 @@ def test_a_learner_goes_on_from_its_file(kind, moves, more, makers, plant, robot
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_runs_are_joined_and_taken_apart(kind, makers, plant, robot, tmp_path):
-    paths = [tmp_path / f"{run}.npz" for run in range(RUNS)]
-    for run, path in enumerate(paths):
-        save(path, train(makers[kind](runs=1), plant, 5 + run, run=[run]), robot)
-    join(tmp_path / "both.npz", paths)
-    for run, path in enumerate(paths):
-        alone, taken = load(path, robot), load(tmp_path / "both.npz", robot, run)
-        assert np.array_equal(taken.command(TESTS[[run]]), alone.command(TESTS[[run]]))
+def test_one_run_of_several_is_taken(kind, makers, plant, robot, tmp_path):
+    learner = train(makers[kind](runs=RUNS), plant, 5)
+    save(tmp_path / "both.npz", learner, robot)
+    for run in range(RUNS):
+        taken = load(tmp_path / "both.npz", robot, run)
+        assert np.array_equal(taken.command(TESTS[[run]]), learner.command(TESTS)[[run]])
     with pytest.raises(InvalidSetting, match="run is 2; expected: 0 to 1"):
         load(tmp_path / "both.npz", robot, 2)
-
-
-def test_the_file_of_another_learner_cannot_be_joined(makers, robot, tmp_path):
-    for degree in (1, 2):
-        save(tmp_path / f"{degree}.npz", PolynomialLearner(degree), robot)
-    with pytest.raises(InvalidFile, match=r"2\.npz: it is of another learner"):
-        join(tmp_path / "both.npz", [tmp_path / "1.npz", tmp_path / "2.npz"])
-    assert not (tmp_path / "both.npz").exists()
 
 
 def longer(model) -> None:
@@ -200,17 +189,10 @@ def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robo
 
     together = go_on(HierarchicalLearner(rules, own, runs=3), [0, 1, 2], range(5))
     save(tmp_path / "together.npz", together, robot)
-    paths = [tmp_path / "first.npz", tmp_path / "others.npz"]
-    for path, runs in zip(paths, ([0], [1, 2]), strict=True):
-        parts = [together.schedule.of_run(run) for run in runs]
-        learner = HierarchicalLearner(rules, Schedule.of_runs(parts), runs=len(runs))
-        save(path, go_on(learner, runs, range(5)), robot)
-    join(tmp_path / "all.npz", paths)
-    joined = load(tmp_path / "all.npz", robot)
-    assert joined.rules == rules and joined.settings() == together.settings()
-    go_on(together, [0, 1, 2], range(5, 10))
-    go_on(joined, [0, 1, 2], range(5, 10))
-    last = go_on(load(tmp_path / "all.npz", robot, 2), [2], range(5, 10))
+    loaded, last = load(tmp_path / "together.npz", robot), load(tmp_path / "together.npz", robot, 2)
+    assert loaded.rules == rules and loaded.settings() == together.settings()
+    for learner, runs in ((together, [0, 1, 2]), (loaded, [0, 1, 2]), (last, [2])):
+        go_on(learner, runs, range(5, 10))
     tests = np.random.default_rng(5).uniform(-1, 1, (3, 20, 6))
-    assert np.array_equal(joined.command(tests), together.command(tests))
+    assert np.array_equal(loaded.command(tests), together.command(tests))
     assert np.array_equal(last.command(tests[[2]]), together.command(tests)[[2]])

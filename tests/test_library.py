@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import recalib
-from recalib.nominal.descriptions import find_urdf
+from recalib.nominal import find_urdf
 from tests.conftest import ROOT
 from tests.laboratory.conftest import in_degrees, in_millimetres, read, write
 

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from recalib import OFFSETS, BadMeasurement, ExternalRobot, Observations, Outcome, position_error
-from recalib.identification.calibration import calibrate
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import ErrorModel
-from recalib.learners.kinds import KINDS
-from recalib.loop.moves import check_moves
+from recalib.identification import calibrate, identify
+from recalib.identification.model import ErrorModel
+from recalib.learners import KINDS
+from recalib.loop import check_moves
 
 RUNS = 2
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 6))

@@ -7,7 +7,7 @@ import rerun as rr
 from rerun.chunk import RrdReader
 
 from recalib.laboratory.viewer.scene import log_meshes
-from recalib.nominal.meshes import with_own_meshes
+from recalib.nominal import with_own_meshes
 
 MESH = """solid SECRET
 facet normal 0 0 1

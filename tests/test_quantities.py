@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from recalib import InvalidQuantity
-from recalib.files.quantities import ANGLE, COMPLIANCE, LENGTH
+from recalib.files import ANGLE, COMPLIANCE, LENGTH
 
 
 @pytest.mark.parametrize(

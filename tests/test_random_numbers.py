@@ -2,7 +2,7 @@
 
 import pytest
 
-from recalib.numerics.randomness import generator
+from recalib.numerics import generator
 
 
 def test_a_purpose_has_the_numbers_that_it_had():

@@ -6,7 +6,7 @@ from scipy.stats import norm
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
-from recalib.numerics.regression import LENGTHS, NOISE, VARIANCES, Process, is_time_to_search
+from recalib.numerics import LENGTHS, NOISE, VARIANCES, Process, is_time_to_search
 
 BOUNDS = np.log([VARIANCES, VARIANCES, *[LENGTHS] * 3, NOISE])
 EPS = np.finfo(float).eps

@@ -1,15 +1,13 @@
 """A black box: Gaussian processes for the correction of the command, without an arm's model."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 
 from recalib.learners.experience import Refitting
+from recalib.nominal.robots import Robot
 from recalib.numerics.regression import Process, is_time_to_search
-
-if TYPE_CHECKING:
-    from recalib.nominal.robots import Robot
 
 
 class GaussianProcessLearner(Refitting):
@@ -46,6 +44,6 @@ class GaussianProcessLearner(Refitting):
         return Process(**state)
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
         """An untrained learner for a number of runs; it has no settings."""
         return cls(runs=runs)

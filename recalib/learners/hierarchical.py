@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -12,9 +12,7 @@ from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
 from recalib.loop.interfaces import Execute, State
 from recalib.loop.moves import check_moves
-
-if TYPE_CHECKING:
-    from recalib.nominal.robots import Robot
+from recalib.nominal.robots import Robot
 
 
 class HierarchicalLearner:
@@ -85,7 +83,7 @@ class HierarchicalLearner:
         return fall(start, ends, fraction, power)
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
         """An untrained learner for a number of runs, from its `settings`."""
         rules: dict[str, Any] = {
             name: tuple(value) if isinstance(value, list) else value

@@ -4,19 +4,17 @@ A file is an archive (`recalib.files.archives`). Its header has the format's ver
 learner and what it was made with, and the robot. All other arrays are named RUN/GROUP/NAME.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from recalib.errors import InvalidFile, InvalidSetting, OtherRobot
+from recalib.errors import InvalidSetting, OtherRobot
 from recalib.files.archives import read_archive, refused, write_archive
 from recalib.learners.kinds import class_of, kind_of
 from recalib.loop.interfaces import Savable, State
-
-if TYPE_CHECKING:  # to join files takes no robot
-    from recalib.nominal.robots import Robot
+from recalib.nominal.robots import Robot
 
 FORMAT, VERSION = "recalib learner", 6
 WRITER = "recalib.save"
@@ -26,7 +24,7 @@ PROBES = 8  # joint angles at which the kinematics of two robots are compared
 Path = str | PathLike[str]
 
 
-def save(path: Path, learner: Savable, robot: "Robot") -> None:
+def save(path: Path, learner: Savable, robot: Robot) -> None:
     """Write what a learner has learned on a robot.
 
     Raises UnknownName (a learner of no known kind).
@@ -38,10 +36,11 @@ def save(path: Path, learner: Savable, robot: "Robot") -> None:
         "settings": learner.settings(),
         "robot": identity(robot),
     }
-    _write(path, header, learner.state())
+    states = {str(run): state for run, state in enumerate(learner.state())}
+    write_archive(path, header, states)
 
 
-def load(path: Path, robot: "Robot", run: int | None = None) -> Savable:
+def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
     """The learner that `save` wrote, for the same robot.
 
     Args:
@@ -68,26 +67,7 @@ def load(path: Path, robot: "Robot", run: int | None = None) -> Savable:
     return learner
 
 
-def join(path: Path, parts: Iterable[Path]) -> None:
-    """Write one file with the runs of several, of the same kind of learner on the same robot.
-
-    Raises InvalidFile.
-    """
-    header: dict[str, Any] = {}
-    states: list[State] = []
-    by_run: list[Any] = []
-    for part in parts:
-        its_header, its_states = read(part)
-        by_run += its_header["settings"].pop("by_run", [])
-        if its_header != (header := header or its_header):
-            raise InvalidFile(part, "it is of another learner or robot than the first")
-        states += its_states
-    if by_run:
-        header["settings"]["by_run"] = by_run
-    _write(path, header, states)
-
-
-def identity(robot: "Robot") -> dict[str, Any]:
+def identity(robot: Robot) -> dict[str, Any]:
     """What tells a robot from others, in the types of JSON: what it does, not what it is called."""
     joints = np.arange(len(robot.joints)) + 1
     angles = np.sin(np.outer(np.arange(PROBES) + 1, joints))  # rad, a mixture of all joints
@@ -114,10 +94,6 @@ def differences(learned: Mapping[str, Any], here: Mapping[str, Any]) -> list[str
         if not gap <= ALIKE:
             found.append(f"its {name} differs by up to {gap:.3g} m or rad")
     return found
-
-
-def _write(path: Path, header: Mapping[str, Any], states: Sequence[State]) -> None:
-    write_archive(path, header, {str(run): state for run, state in enumerate(states)})
 
 
 def read(path: Path) -> tuple[dict[str, Any], list[State]]:

@@ -7,17 +7,15 @@ correction, each coefficient with a deviation.
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 
 from recalib.errors import InvalidSetting
 from recalib.learners.observer import Observer
 from recalib.loop.interfaces import State
+from recalib.nominal.robots import Robot
 from recalib.numerics.monomials import monomials
-
-if TYPE_CHECKING:
-    from recalib.nominal.robots import Robot
 
 # Deviations of the coefficients by their degree, and of what the polynomial leaves, all in
 # workspace coordinates: wear of some centimetres and degrees, an arm's length away, bends the map
@@ -63,7 +61,7 @@ class PolynomialLearner(Observer):
             self._spread -= gain.swapaxes(1, 2) @ reach
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
         """An untrained learner for a number of runs, from its `settings`."""
         return cls(**settings, runs=runs)
 

@@ -5,13 +5,12 @@ axis is always the run: an experiment trains many runs side by side.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, runtime_checkable
+from typing import Any, NamedTuple, Protocol, Self, runtime_checkable
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from recalib.nominal.poses import Workspace
-    from recalib.nominal.robots import Robot
+from recalib.nominal.poses import Workspace
+from recalib.nominal.robots import Robot
 
 
 class Outcome(NamedTuple):
@@ -59,7 +58,7 @@ class Savable(Learner, Protocol):
     """
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
         """An untrained learner for a number of runs, from its `settings`."""
 
     def settings(self) -> dict[str, Any]:
@@ -76,7 +75,7 @@ class Commandable(Protocol):
     """The interface of an experiment's robots, one for each run: they execute pose commands."""
 
     @property
-    def workspace(self) -> "Workspace":
+    def workspace(self) -> Workspace:
         """The workspace in whose coordinates poses are given."""
 
     @property

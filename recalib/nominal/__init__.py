@@ -1,1 +1,5 @@
 """The nominal robot: its kinematics, its workspace and the controller that uses them."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

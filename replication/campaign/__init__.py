@@ -1,1 +1,5 @@
 """The campaign: every variant, tuned in many setups, each with its own reading of the paper."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

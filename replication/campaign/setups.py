@@ -23,6 +23,7 @@ from replication.scenarios.nominal import Nominal, nominal
 
 DESIGN = f"{CAMPAIGN}/design.csv"
 OUTCOMES = f"{CAMPAIGN}/outcomes.csv"  # the campaign is this one table
+UNTRAINED = f"{CAMPAIGN}/untrained.csv"  # what is measured in every setup without a learner
 DIGITS = 4  # of a length in m
 LINE = 1000  # characters: no list of damages is longer
 

@@ -28,7 +28,6 @@ from replication.config.units import (
     Ordered,
     Scale,
     Seed,
-    SeriesName,
     Several,
     SomeDistinct,
     StudyName,
@@ -125,8 +124,8 @@ class LearnerSettings(Part):
     """Cells along roll, pitch and yaw."""
 
 
-class Series(Part):
-    """Robots with other assignments, or other amounts, of the paper's damage."""
+class Ensemble(Part):
+    """Robots with other assignments and other amounts of the paper's damage."""
 
     draws: Times
     """Assignments drawn."""
@@ -154,8 +153,8 @@ class Experiments(Part):
     """Whether to take each of the four changes from the improved system and add it to Ritter's."""
     evidence: Switch
     """Whether to judge and draw every claim of the paper, or those alone that trainings tell of."""
-    ensemble: dict[Name, dict[SeriesName, Series]]
-    """For each learner, robots with other assignments or amounts of the paper's damage."""
+    ensemble: Ensemble
+    """Robots with other assignments and amounts of the paper's damage."""
 
 
 class Benchmark(Part):

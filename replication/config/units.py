@@ -16,19 +16,17 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from recalib.errors import InvalidQuantity
-
 MOST = 1_000_000  # iterations: more would run for days
 MOST_TIMES = 10_000  # of what is drawn, done or measured again and again
 
 
-def _expected(valid: str, read: Callable[[Any], Any] = lambda value: value) -> WrapValidator:
-    """Reads a value before its type does. Whatever is wrong with it, `valid` is what is said."""
+def _expected(valid: str) -> WrapValidator:
+    """Whatever is wrong with a value, `valid` is what is said."""
 
     def told(value: Any, validate: Callable[[Any], Any]) -> Any:
         try:
-            return validate(read(value))
-        except (InvalidQuantity, ValidationError):
+            return validate(value)
+        except ValidationError:
             raise PydanticCustomError("expected", valid) from None
 
     return WrapValidator(told)
@@ -56,7 +54,6 @@ Name = _text(  # of a robot, a scenario, a learner: it becomes part of paths
     r"^[A-Za-z][A-Za-z0-9_]*$", "a name (letters, digits and _, beginning with a letter)", 60
 )
 StudyName = _text("^[a-z][a-z0-9_]*$", "a name (small letters, digits and _, a letter first)", 40)
-SeriesName = _text("^[a-z]+$", "a name of small letters", 40)
 Url = _text(r"^https://\S+$", "an address that begins with https://", 300)
 Checksum = _text("^[0-9a-f]{64}$", "64 digits from 0 to f", 64)
 Text = Annotated[str, Field(strict=True, min_length=1, max_length=300)]

@@ -16,38 +16,9 @@ from replication.judgement.findings import Finding, read_findings
 from replication.training.measured import ERRORS
 from replication.training.plan import Place, places
 
-MAPPING = "nearness", "propagation", "quantisation", "replay", "solutions", "visits", "widths"
-
 
 class NotMeasured(RecalibError):
     """A study lacks what was asked for. Its text is the key that would bring it."""
-
-
-def files(study: Study, part: str) -> list[str]:
-    """The paths of a part of a study's results.
-
-    Args:
-        part: trainings, mapping, ensemble, campaign, or the name of a single table.
-    """
-    root = root_of(study.name)
-    match part:
-        case "trainings":
-            found = [f"{root}/summary.csv"]
-            for place, learners in places(study).items():
-                found.append(place.scenario_file(root))
-                found += [place.history_file(root, learner) for learner in learners]
-            return found
-        case "mapping":
-            names = [*MAPPING, "coupling"]
-            return [
-                f"{root}/mapping/{name}.parquet" for name in names if study.experiments.evidence
-            ]
-        case "ensemble":
-            series = study.experiments.ensemble if study.experiments.evidence else {}
-            return [f"{root}/ensemble/{learner}.parquet" for learner in series]
-        case "campaign":
-            return [f"{CAMPAIGN}/{name}.csv" for name in ("design", "outcomes", "untrained")]
-    return [f"{root}/{part}"]
 
 
 class Evidence:

@@ -39,7 +39,7 @@ CHOSEN = (
     "article.pdf",
     "figures/*",
     "mapping/*",
-    "ensemble/*",
+    "ensemble.parquet",
     "robots/*/*.json",
     "runs/*/*/*.parquet",
     "recordings/*.rrd",

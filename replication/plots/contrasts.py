@@ -98,7 +98,7 @@ def _draw(axes: Axes, its: list[Row]) -> None:
     low, high = _ends(its)
     for height, row in zip(heights, its, strict=True):
         _draw_row(axes, height, row, (low, high))
-    name_rows(axes, heights, [LABELS[row.claim.statement.id] for row in its])
+    name_rows(axes, heights, [LABELS.get(row.claim.statement.id, row.claim.name) for row in its])
     beside = name_right(axes, heights, [row.result for row in its])
     for label, row in zip(beside.get_yticklabels(), its, strict=True):
         if row.finding.verdict in (Verdict.SUPPORTED, Verdict.CONTRADICTED):

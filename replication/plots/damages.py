@@ -3,17 +3,14 @@
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from replication.config.switches import IMPROVED
 from replication.judgement.evidence import Evidence
-from replication.plots.figures import scaled
 from replication.plots.palette import BOTH, GREY
 from replication.plots.style import BAND, WIDTH, band, logarithmic, note
 
 
 def amounts(evidence: Evidence) -> Figure:
     """Both errors of the improved system before and after learning, by the size of the damage."""
-    table = evidence.table(f"ensemble/{IMPROVED}.parquet")
-    by_size = table[table["series"] == scaled(evidence.study)].groupby("scale")
+    by_size = evidence.table("ensemble.parquet").groupby("scale")
     figure, panels = plt.subplots(1, 2, figsize=(WIDTH, 2.6))
     for axes, error in zip(panels, BOTH, strict=True):
         for moment, color, marker in (("initial", GREY, "^"), ("final", error.color, error.marker)):

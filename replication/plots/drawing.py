@@ -1,6 +1,7 @@
 """Draws the figures of a study into files."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 
 import matplotlib.figure
@@ -8,29 +9,17 @@ import matplotlib.pyplot as plt
 
 from replication.config.study import Study
 from replication.judgement.evidence import Evidence
-from replication.plots.benchmark import benchmark, real_arm
-from replication.plots.contrasts import contrasts
-from replication.plots.damages import amounts
 from replication.plots.figures import Figure
-from replication.plots.learning import figure_1, learners, scenarios
-from replication.plots.mapping import mapping
-from replication.plots.steps import steps
 from replication.plots.style import STYLE, save
 
-FUNCTIONS: Mapping[str, Callable[[Evidence], matplotlib.figure.Figure]] = {
-    function.__name__: function
-    for function in (
-        figure_1,
-        steps,
-        contrasts,
-        learners,
-        scenarios,
-        amounts,
-        mapping,
-        benchmark,
-        real_arm,
-    )
-}
+
+def drawn(figure: Figure, evidence: Evidence) -> matplotlib.figure.Figure:
+    """A figure of a study's results. Raises NotMeasured."""
+    module, _, function = figure.value.partition(".")
+    found: matplotlib.figure.Figure = getattr(
+        import_module(f"replication.plots.{module}"), function
+    )(evidence)
+    return found
 
 
 def draw(study: Study, figures: Sequence[Path]) -> None:
@@ -39,4 +28,4 @@ def draw(study: Study, figures: Sequence[Path]) -> None:
     with plt.rc_context(STYLE):
         for name in dict.fromkeys(path.stem for path in figures):
             paths = [path for path in figures if path.stem == name]
-            save(FUNCTIONS[known[name].value](evidence), *paths)
+            save(drawn(known[name], evidence), *paths)

@@ -4,23 +4,22 @@ from enum import Enum
 
 from replication.config.shipped import SHIPPED
 from replication.config.study import Study
-from replication.config.switches import IMPROVED
 from replication.judgement.claims.claim import FEWEST
 from replication.judgement.evidence import Evidence, NotMeasured
 
 
 class Figure(Enum):
-    """A figure, by the function that draws it; numbered in this order."""
+    """A figure, by the module and the function that draw it; numbered in this order."""
 
-    FIGURE_1 = "figure_1"  # the paper's only one
-    STEPS = "steps"
-    CONTRASTS = "contrasts"
-    LEARNERS = "learners"
-    SCENARIOS = "scenarios"
-    AMOUNTS = "amounts"
-    MAPPING = "mapping"
-    BENCHMARK = "benchmark"
-    REAL_ARM = "real_arm"
+    FIGURE_1 = "learning.figure_1"  # the paper's only one
+    STEPS = "steps.steps"
+    CONTRASTS = "contrasts.contrasts"
+    LEARNERS = "learning.learners"
+    SCENARIOS = "learning.scenarios"
+    AMOUNTS = "damages.amounts"
+    MAPPING = "mapping.mapping"
+    BENCHMARK = "benchmark.benchmark"
+    REAL_ARM = "benchmark.real_arm"
 
     @property
     def number(self) -> int:
@@ -122,12 +121,6 @@ CAPTIONS = {
 }
 
 
-def scaled(study: Study) -> str | None:
-    """The series in which the paper's damage has several sizes, if the study has one."""
-    series = study.experiments.ensemble.get(IMPROVED, {})
-    return next((name for name, its in series.items() if len(its.scales) > 1), None)
-
-
 def figures_of(study: Study) -> list[str]:
     """The files, without suffix, of the figures for which a default run of a study has results."""
     evidence, setups = study.experiments.evidence, _setups(study)
@@ -135,7 +128,7 @@ def figures_of(study: Study) -> list[str]:
         Figure.STEPS: not setups,
         Figure.CONTRASTS: len(setups) < FEWEST,
         Figure.MAPPING: not evidence,
-        Figure.AMOUNTS: not (evidence and scaled(study)),
+        Figure.AMOUNTS: not evidence,
     }
     return [its.file for its in Figure if its not in APART and not lacking.get(its)]
 

@@ -22,7 +22,6 @@ from replication.plots.style import (
     logarithmic,
     name_rows,
     note,
-    with_intervals,
     words,
 )
 from replication.training.measured import ERRORS
@@ -154,7 +153,9 @@ def scenarios(evidence: Evidence) -> Figure:
             final = [_at_end(evidence, training, place, error) for place in trained]
             means = np.maximum([errors.mean() for errors in final], FLOOR)
             ends = np.maximum(np.percentile(final, BAND, axis=1), FLOOR)
-            with_intervals(axes, rows + offset, means, ends, style.label, style)
+            axes.hlines(rows + offset, *ends, color=style.color, linewidth=1.2)
+            signs = {"label": style.label, **style.signs()}
+            axes.scatter(means, rows + offset, s=MARK, zorder=3, **signs)
         axes.set_xlabel(f"{error.kind} [{error.unit}]")
         logarithmic(axes.xaxis, 0.001, 0.1, 10)
         axes.set_xlim(FLOOR / 1.5, 30)

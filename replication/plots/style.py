@@ -22,7 +22,6 @@ from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike
 
 from recalib.files.storage import whole
-from replication.plots.palette import Style
 from replication.plots.steady import LOG, steady
 
 WIDTH = 5.0  # inches
@@ -110,20 +109,6 @@ def band(axes: Axes, places: ArrayLike, ends: Sequence[ArrayLike], color: str) -
     """What lies between the lower and the upper end, paler than its line."""
     low, high = ends
     axes.fill_between(places, low, high, color=color, alpha=0.2, linewidth=0)
-
-
-def with_intervals(
-    axes: Axes,
-    rows: ArrayLike,
-    values: ArrayLike,
-    ends: Sequence[ArrayLike],
-    label: str,
-    style: Style,
-) -> None:
-    """Signs in rows, each on the line from the lower to the upper end of its interval."""
-    low, high = ends
-    axes.hlines(rows, low, high, color=style.color, linewidth=1.2)
-    axes.scatter(values, rows, s=MARK, label=label, zorder=3, **style.signs())
 
 
 def note(

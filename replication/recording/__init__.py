@@ -1,1 +1,5 @@
 """Recordings of an arm before, during and after its recalibration: nothing else imports Rerun."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 
+from recalib.nominal.descriptions import find_urdf
 from replication.config.part import Frozen
 from replication.config.study import ControllerSettings, RobotSettings, Study
 
@@ -20,8 +21,6 @@ class Nominal(Frozen):
 
 def nominal(study: Study, robot: str) -> Nominal:
     """A robot of a study. See `find_urdf` for what it raises."""
-    from recalib.nominal.descriptions import find_urdf
-
     entry = study.robots[robot]
     digest = digest_of([find_urdf(entry.urdf)])
     return Nominal(name=robot, robot=entry, controller=study.controller, urdf_sha256=digest)

@@ -1,4 +1,4 @@
-"""Trainings on many assignments of the paper's damage: robots of their own, at several scales."""
+"""Trainings on other assignments of the paper's damage, each at several scales."""
 
 from collections.abc import Iterator, Sequence
 from itertools import islice
@@ -12,6 +12,7 @@ from recalib.errors import InvalidSetting
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
 from replication.config.study import Study
+from replication.config.switches import IMPROVED
 from replication.scenarios.assignments import Assignment, Ways
 from replication.scenarios.nominal import nominal
 from replication.scenarios.plants import nominal_controller
@@ -35,38 +36,33 @@ def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> It
         yield ways[index]
 
 
-def train_draws(study: Study, learner: str, settings: Sequence[Path]) -> pd.DataFrame:
-    """Train a learner on the robots of all its series, each with all scales of its damage.
+def train_ensemble(study: Study, settings: Sequence[Path]) -> pd.DataFrame:
+    """Train the improved system on the ensemble's robots.
 
     Args:
         settings: files with widths and rates.
 
-    Returns a row for each series, draw and scale, with both errors before and after learning.
+    Returns a row for each draw and scale, with both errors before and after learning.
     """
-    its, iterations = nominal(study, study.robot), study.experiments.iterations
-    controller, tuned = nominal_controller(its), Tuned(study, settings)
+    its, plan = nominal(study, study.robot), study.experiments
+    controller, scales = nominal_controller(its), plan.ensemble.scales
     robot, damage = controller.robot, study.paper_damage
     ways = Ways(its.robot.links, damage.shorten, robot.joints, damage.shift)
-    tables = []
-    for name, series in study.experiments.ensemble[learner].items():
-        order = generator(study.seed, "ensemble", name).permutation(len(ways)).tolist()
-        drawn = islice(feasible(robot, ways, order, max(series.scales)), series.draws)
-        cases = [(*draw, scale) for draw in enumerate(drawn) for scale in series.scales]
-        draws = [draw for draw, _, _ in cases]
-        history = train_for_results(
-            Plant(controller, [scaled_arm(robot, damages, scale) for _, damages, scale in cases]),
-            tuned.learner(learner, iterations, len(cases)),
-            Stream.ENSEMBLE.draw(study.seed, draws, iterations, study.training.tests),
-            [0, iterations],
-        )
-        table = {
-            "series": name,
-            "draw": draws,
-            "scale": [scale for _, _, scale in cases],
-            "refused": history.refused[:, -1],
-        }
-        columns = history.columns()
-        for when, moment in enumerate(("initial", "final")):
-            table |= {f"{moment}_{error}": columns[error][when::2] for error in ERRORS}
-        tables.append(pd.DataFrame(table))
-    return pd.concat(tables, ignore_index=True)
+    order = generator(study.seed, "ensemble", "scaled").permutation(len(ways)).tolist()
+    drawn = islice(feasible(robot, ways, order, max(scales)), plan.ensemble.draws)
+    cases = [(*draw, scale) for draw in enumerate(drawn) for scale in scales]
+    draws = [draw for draw, _, _ in cases]
+    history = train_for_results(
+        Plant(controller, [scaled_arm(robot, damages, scale) for _, damages, scale in cases]),
+        Tuned(study, settings).learner(IMPROVED, plan.iterations, len(cases)),
+        Stream.ENSEMBLE.draw(study.seed, draws, plan.iterations, study.training.tests),
+        [0, plan.iterations],
+    )
+    columns = history.columns()
+    table = {
+        f"{moment}_{error}": columns[error][when::2]
+        for when, moment in enumerate(("initial", "final"))
+        for error in ERRORS
+    }
+    about = {"draw": draws, "scale": [scale for _, _, scale in cases]}
+    return pd.DataFrame(about | {"refused": history.refused[:, -1]} | table)

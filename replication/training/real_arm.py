@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import numpy as np
 import pandas as pd
@@ -12,7 +12,9 @@ import pinocchio as pin
 from recalib.damaged.plant import Plant
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.observations import Observations
+from recalib.learners.geometric import GeometricLearner
 from recalib.learners.kinds import KINEMATICS, class_of
+from recalib.learners.observer import Observer
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import POSITION, Workspace
@@ -25,10 +27,6 @@ from replication.training.competitors import MOVES, TWIN, UNCORRECTED, Peer, pee
 from replication.training.poses import Stream, train_for_results
 from replication.training.tracker import TrackerMeasurements, read_of, read_whole_description
 from replication.training.tuned import Tuned
-
-if TYPE_CHECKING:
-    from recalib.learners.geometric import GeometricLearner
-    from recalib.learners.observer import Observer
 
 ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
 
@@ -47,7 +45,7 @@ def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
 
 def identified(kind: str, arm: Arm, measurements: TrackerMeasurements) -> Calibration:
     """The arm as a learner of a kind that knows the nominal one identifies it."""
-    identifying = cast("type[GeometricLearner]", class_of(kind))
+    identifying = cast(type[GeometricLearner], class_of(kind))
     return identifying.identify(arm, Observations(measurements.angles, measurements.measured))
 
 
@@ -61,7 +59,7 @@ def _black_box(
     ]
     reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
     workspace = Workspace(centre, np.where(reach > ROUNDING, reach, 1.0))
-    learner = cast("Observer", class_of(its.kind).from_settings(its.settings, 1, robot))
+    learner = cast(Observer, class_of(its.kind).from_settings(its.settings, 1, robot))
     sent, achieved = _coordinates(arm, workspace, known)
     learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
     sent, achieved = _coordinates(arm, workspace, unknown)

@@ -10,6 +10,7 @@ from recalib.errors import RecalibError
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
 from replication.config.study import LearnerSettings, Study
+from replication.config.switches import IMPROVED
 from replication.training.plan import places
 from replication.training.settings import Space
 
@@ -35,8 +36,9 @@ def trained(study: Study) -> set[tuple[str, int]]:
         for iterations in lengths
     }
     more = [*study.benchmark.papers.items(), *study.real.twin.items()]
-    series = ((name, study.experiments.iterations) for name in study.experiments.ensemble)
-    return found | {*more} | {*series}
+    if study.experiments.evidence:
+        more.append((IMPROVED, study.experiments.iterations))  # for the ensemble
+    return found | {*more}
 
 
 class Tuned:

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import InvalidSetting, LinkBend, LinkTwist, UnknownName, apply, load_robot
-from recalib.nominal.robots import link_end
+from recalib.nominal import link_end
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_3_link"]  # across two axes; along x; the tool
 

@@ -13,8 +13,8 @@ from recalib import (
     UnknownName,
     apply,
 )
-from recalib.damaged.imperfections import Imperfection
-from recalib.nominal.robots import link_end
+from recalib.damaged import Imperfection
+from recalib.nominal import link_end
 
 ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))
 

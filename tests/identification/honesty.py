@@ -4,9 +4,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
+from recalib.identification import identify_by_consensus
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, Fault, faults
-from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model import ErrorModel
 from tests.identification.real import Real
 
 MIDDLE, AROUND = np.radians([20, -65, 100, -40, 95, 10]), 0.8  # rad

@@ -6,9 +6,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.frames import nearest_rotation
+from recalib.identification import identify
+from recalib.identification.model import ErrorModel, nearest_rotation
 
 ARMS = {"UR10": ("ur10_robot.urdf", "tool0"), "Panda": ("panda.urdf", "panda_link8")}
 NOISE = 2e-4, np.radians(0.02)  # m, rad

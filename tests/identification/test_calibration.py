@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 
 from recalib import JOINT_ERRORS, OFFSETS, Calibration, EccentricGear, Observations, apply
+from recalib.identification import calibrate
 from recalib.identification import calibration as module
-from recalib.identification.calibration import calibrate
-from recalib.identification.model.error_model import held
-from recalib.learners.geometric import angles_for
+from recalib.identification.model import held
+from recalib.learners import angles_for
 from tests.identification.test_estimation import postures
 
 

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from recalib import OFFSETS, Calibration, Observations, information_gains
-from recalib.identification.design import most_informative
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification import identify, most_informative
+from recalib.identification.model import ErrorModel
 from tests.identification.test_estimation import postures
 
 

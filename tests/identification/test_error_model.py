@@ -3,8 +3,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import JOINT_ERRORS, JOINT_WAVES, BaseShift, EccentricGear, EncoderShift, apply
-from recalib.identification.model.error_model import ErrorModel
-from replication.scenarios.plants import nominal_robot
+from recalib.identification.model import ErrorModel
+from replication.scenarios import nominal_robot
 from tests.arms import RAILED
 
 TWISTS = 42  # parameters of an arm of six joints and one target

@@ -12,9 +12,8 @@ from recalib import (
     orientation_error,
     position_error,
 )
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.linearisation import displacements
+from recalib.identification import identify
+from recalib.identification.model import ErrorModel, displacements
 from tests import reference
 
 NOISY = Disturbances(Noise(2e-4, np.radians(0.02)))

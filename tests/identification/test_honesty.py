@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from recalib import Observations, initial_frames, load_arm
-from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, validate
+from recalib.identification import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, validate
 from tests.identification.honesty import distances, with_targets
 from tests.identification.real import ARMS, Real
 

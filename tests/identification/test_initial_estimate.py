@@ -5,10 +5,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, BadMeasurement, Observations, initial_frames, load_arm
-from recalib.identification.closed_forms import OPEN, _smallest, turns_by_poses
-from recalib.identification.estimation import identify
+from recalib.identification import OPEN, identify, turns_by_poses
+from recalib.identification.closed_forms import _smallest
 from recalib.identification.initial_estimate import _is_open
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model import ErrorModel
 from tests.arms import GANTRY, SCARA
 from tests.identification.real import ARMS, Real, geometry_of
 

@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 
 from recalib import JOINT_ERRORS, OFFSETS, Distance, Observations, Row, arm_of_table, initial_frames
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import NO_ERRORS, ErrorModel
-from recalib.identification.model.frames import HELD
-from recalib.identification.validation import BLOCKWISE, GEOMETRIC, validate
+from recalib.identification import BLOCKWISE, GEOMETRIC, identify, validate
+from recalib.identification.model import HELD, NO_ERRORS, ErrorModel
 from tests.arms import GANTRY, SCARA, urdf
 from tests.identification.real import Real, aligned, geometry_of
 

@@ -9,7 +9,7 @@ import pytest
 from recalib import OFFSETS, Calibration
 from recalib.identification.checks.diagnostics import Untrustworthy, check_links
 from recalib.identification.checks.link_lengths import link_lengths
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model import ErrorModel
 from tests.arms import RAILED, SCARA
 
 

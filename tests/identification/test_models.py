@@ -17,8 +17,8 @@ from recalib import (
     orientation_error,
     position_error,
 )
-from recalib.identification.calibration import calibrate
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification import calibrate
+from recalib.identification.model import ErrorModel
 from tests.identification.test_estimation import noisy, postures
 
 EXACT = Disturbances(Noise(1e-5, 1e-4))

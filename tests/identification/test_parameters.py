@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 
 from recalib import JOINT_WAVES, OFFSETS, Calibration
-from recalib.identification.estimation import Identification
-from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.frames import Frames
-from recalib.identification.parameters import parameters_of
+from recalib.identification import Identification, parameters_of
+from recalib.identification.model import ErrorModel, Frames
 
 
 @pytest.fixture

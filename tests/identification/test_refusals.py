@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from recalib import OFFSETS, Calibration, Observations, RecalibError, initial_frames
+from recalib.identification import identify
 from recalib.identification.checks.diagnostics import check_estimate, check_postures
 from recalib.identification.checks.postures import find_postures
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model import ErrorModel
 from tests.arms import RAILED
 from tests.identification.real import Real
 

@@ -7,10 +7,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, Observations
-from recalib.identification.calibration import calibrate
+from recalib.identification import calibrate
 from recalib.identification.checks.sequence import DRIFT, GROWTH, JUMP, LAG, faults
-from recalib.identification.model.frames import Frames
-from recalib.identification.model.optics import Optics
+from recalib.identification.model import Frames, Optics
 from tests.conftest import few_folds
 from tests.identification.honesty import AROUND, MIDDLE, ROWS, Session, with_targets
 from tests.identification.real import NOISE, Real, geometry_of

@@ -6,13 +6,8 @@ import numpy as np
 import pytest
 
 from recalib import OFFSETS, Arm, BadMeasurement, Calibration, Observations, initial_frames
-from recalib.identification.calibration import calibrate
-from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import joined_frames
-from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.frames import Frames
-from recalib.identification.model.linearisation import displacements
-from recalib.identification.parameters import parameters_of
+from recalib.identification import calibrate, identify, joined_frames, parameters_of
+from recalib.identification.model import ErrorModel, Frames, displacements
 from tests.identification.real import Real, anywhere
 
 SIGHTS = np.array([[0, 0], [1, 0], [1, 1]])

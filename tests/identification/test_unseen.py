@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
+from recalib.identification import Unseen, identify
 from recalib.identification.checks.identifiability import unidentifiable_parameters
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.unseen import Unseen
+from recalib.identification.model import ErrorModel
 from tests.arms import urdf
 from tests.identification.real import Real
 

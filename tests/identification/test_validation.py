@@ -4,21 +4,24 @@ import numpy as np
 import pytest
 
 from recalib import Observations, initial_frames
-from recalib.identification import validation as module
-from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.identification.checks.postures import find_postures
-from recalib.identification.held_out import FOLDS, HeldOut, blocks, random_folds
-from recalib.identification.model.frames import Frames
-from recalib.identification.validation import (
+from recalib.identification import (
     BLOCKWISE,
+    FOLDS,
     GEOMETRIC,
     HYBRID,
     KINDS,
     NOTHING,
     RANDOM,
     WAYS,
+    HeldOut,
+    blocks,
+    random_folds,
     validate,
 )
+from recalib.identification import validation as module
+from recalib.identification.checks.diagnostics import Untrustworthy
+from recalib.identification.checks.postures import find_postures
+from recalib.identification.model import Frames
 from tests.identification.honesty import MIDDLE, distances
 from tests.identification.real import Real
 

@@ -11,9 +11,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from recalib import OFFSETS as TERMS
 from recalib import load_arm, load_correction
-from recalib.identification.model.error_model import OFFSETS as TERMS
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model import ErrorModel
 from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
 from tests.laboratory.conftest import (
     ARM,

@@ -22,11 +22,11 @@ from recalib import (
     load_correction,
     position_error,
 )
-from recalib.files.archives import write_archive
-from recalib.identification.calibration import calibrate
-from recalib.identification.model.frames import Frames
+from recalib.files import write_archive
+from recalib.identification import calibrate
+from recalib.identification.model import Frames
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.nominal.arms import find_urdf
+from recalib.nominal import find_urdf
 from tests.arms import SCARA
 from tests.laboratory.conftest import postures
 from tests.spoiling import spoil

@@ -8,13 +8,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, Observations, load_arm
+from recalib.identification import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, parameters_of
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
-from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.frames import Frames
-from recalib.identification.parameters import parameters_of
-from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
+from recalib.identification.model import ErrorModel, Frames
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.doubts import doubts

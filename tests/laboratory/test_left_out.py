@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from recalib.identification.validation import BLOCKWISE, WAYS
+from recalib.identification import BLOCKWISE, WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.report.summary import errors_table, summary
 from tests.laboratory.conftest import NOISE, postures, table, true_positions, write

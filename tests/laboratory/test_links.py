@@ -4,7 +4,7 @@ import pytest
 from recalib import Row, arm_of_table, load_arm
 from recalib.laboratory.command_line import main
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
-from recalib.nominal.denavit_hartenberg import CONVENTIONS
+from recalib.nominal import CONVENTIONS
 
 TABLE = """joint,a [mm],alpha [deg],d [cm],theta [rad],kind
 waist,10,-90,40,0.1,revolute

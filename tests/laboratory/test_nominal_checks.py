@@ -4,7 +4,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import Observations, initial_frames, load_arm
-from recalib.identification.initial_estimate import NoInitialEstimate
+from recalib.identification import NoInitialEstimate
 from recalib.laboratory.plausibility.knowledge import checked_frames, mistake_in
 from recalib.laboratory.plausibility.mistakes import WrongNominal, check_nominal, likely_mistake
 from tests.identification.real import Real

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from recalib import InvalidFile
-from recalib.files.outputs import write_new
+from recalib.files import write_new
 from recalib.laboratory import commands
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main

@@ -9,12 +9,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames, load_arm
-from recalib.files.outputs import write_new
+from recalib.files import write_new
+from recalib.identification import HYBRID, identify
 from recalib.identification.checks.identifiability import unidentifiable_parameters
-from recalib.identification.estimation import identify
-from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.linearisation import displacements
-from recalib.identification.validation import HYBRID
+from recalib.identification.model import ErrorModel, displacements
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.places import found_places
 from recalib.laboratory.report.folder import files_of

@@ -5,7 +5,7 @@ import yaml
 
 from recalib import load_arm
 from recalib.laboratory.urdf.universal_robots import LINKS, kinematics_yaml
-from recalib.nominal.descriptions import find_urdf
+from recalib.nominal import find_urdf
 from tests.laboratory.test_urdf import postures, random_calibration
 
 # As the manufacturer publishes them, Denavit and Hartenberg's: d1, a2, a3, d4, d5, d6 [m].

@@ -4,10 +4,10 @@ import pytest
 import yourdfpy
 
 from recalib import OFFSETS, Calibration, load_arm
-from recalib.identification.estimation import Identification
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification import Identification
+from recalib.identification.model import ErrorModel
 from recalib.laboratory.urdf.origins import angles_of, corrected_urdf, with_origins
-from recalib.nominal.arms import find_urdf
+from recalib.nominal import find_urdf
 from tests.nominal.test_arms import ARMS
 
 ROUNDING = 1e-9  # m, rad

@@ -12,7 +12,7 @@ from recalib import (
     Rules,
     Schedule,
 )
-from recalib.learners.nets import regular_grid
+from recalib.learners import regular_grid
 from tests.reference import SlowMap, cycle
 
 SINGLE_WIDTHS = {"pose": (0.5, 0.8)}

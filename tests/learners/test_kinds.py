@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from recalib import Outcome, PolynomialLearner, UnknownName
-from recalib.learners.kinds import KINDS, class_of, kind_of
+from recalib.learners import KINDS, class_of, kind_of
 
 
 def test_a_learner_is_of_the_kind_of_its_own_class():

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from recalib import GaussianProcessLearner, GeometricLearner, HybridLearner
-from recalib.learners.experience import is_due
-from recalib.numerics.regression import Process
+from recalib.learners import is_due
+from recalib.numerics import Process
 
 MOVES = 10
 SENT = np.random.default_rng(3).uniform(-1, 1, (2, MOVES, 6))

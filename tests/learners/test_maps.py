@@ -5,9 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from recalib import Rules
-from recalib.learners import kernels
-from recalib.learners.kernels import JACOBIAN, THETA, WAITING
-from recalib.learners.maps import Maps
+from recalib.learners import JACOBIAN, THETA, WAITING, Maps, kernels
 
 RUNS = 3
 

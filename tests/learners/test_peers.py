@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from recalib import EccentricGear, InvalidSetting, Outcome, Plant, PolynomialLearner, apply
-from recalib.loop.training import measure
-from replication.training.competitors import UNCORRECTED, make_peer, peers
+from recalib.loop import measure
+from replication.training import UNCORRECTED, make_peer, peers
 
 RUNS = 2
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from recalib import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot, load_arm
-from recalib.nominal.descriptions import UrdfFile, find_urdf
+from recalib.nominal import UrdfFile, find_urdf
 from tests.arms import GANTRY, SCARA, urdf
 
 # Of example-robot-data: the tool, and how many joints move it.

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from recalib import Arm, BaseShift, Chain, InvalidSetting, LinkShortening, apply, load_arm
-from replication.scenarios.plants import nominal_robot
+from replication.scenarios import nominal_robot
 
 POSTURES = arrays(float, (3, 8), elements=st.floats(-np.pi, np.pi))  # of so many joints or fewer
 OTHERS = (

@@ -11,7 +11,7 @@ from recalib import (
     orientation_error,
     position_error,
 )
-from replication.scenarios.plants import nominal_controller
+from replication.scenarios import nominal_controller
 from tests.arms import panda
 from tests.conftest import changed
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from recalib import UnsuitableRobot, load_arm
-from recalib.nominal.arms import arm_of
+from recalib.nominal import arm_of
 from tests.arms import urdf
 
 GAIN = st.floats(-2, 2).filter(lambda gain: abs(gain) > 0.1)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from recalib import InvalidSetting, Row, UnknownName, arm_of_table
-from replication.scenarios.plants import nominal_robot
+from replication.scenarios import nominal_robot
 
 
 def turn(axis: int, angle: float) -> np.ndarray:

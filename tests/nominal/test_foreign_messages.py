@@ -2,7 +2,7 @@
 
 import os
 
-from recalib.nominal.foreign_messages import STDERR, caught_messages
+from recalib.nominal import STDERR, caught_messages
 
 
 def test_lines_are_caught_and_the_next_ones_are_written_again(capfd):

@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from recalib import load_arm
-from recalib.nominal.kinematics import tool_frame
+from recalib.nominal import tool_frame
 
 ARMS = {
     "ur10_robot.urdf": ("tool0", [0.0, -1.4, 2.1, -2.9, -1.6, 0.1]),

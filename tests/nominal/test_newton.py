@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 
 from recalib import Chain, load_arm
-from recalib.nominal.chain import TOLERANCE
-from recalib.nominal.newton import LONGEST_STEP, solve_groups
+from recalib.nominal import LONGEST_STEP, TOLERANCE, solve_groups
 
 # Tools, and postures away from where these arms are singular.
 ARMS = {

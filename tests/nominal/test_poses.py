@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
 from recalib import InvalidSetting, UnknownName, Workspace, orientation_error, position_error
-from recalib.nominal.poses import COORDINATES, pose_errors
+from recalib.nominal import COORDINATES, pose_errors
 
 CENTRE = np.eye(4)
 CENTRE[:3, :3] = Rotation.from_euler("xyz", [2.0, -0.7, 1.1]).as_matrix()

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from recalib import InvalidSetting, UnknownName, UnsuitableRobot, load_arm, load_robot
-from replication.scenarios.plants import nominal_robot
+from replication.scenarios import nominal_robot
 from tests.arms import SCARA
 from tests.conftest import changed
 

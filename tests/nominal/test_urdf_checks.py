@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from recalib import RecalibError, UnsuitableRobot
 from recalib.laboratory.urdf.origins import corrected_urdf
-from recalib.nominal.arms import arm_of
+from recalib.nominal import arm_of
 from tests.arms import RAILED, urdf
 from tests.laboratory.test_urdf import random_calibration
 

@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.tables.description import read_description
 from recalib.laboratory.tables.measurements import read_measurements
+from recalib.nominal import find_urdf
 from recalib.nominal.arms import load_arm
-from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm
 from tests.identification.real import ARMS, NOISE, Real
 

@@ -8,8 +8,8 @@ import pytest
 import scipy.linalg
 
 from recalib.identification.model.observations import Observations
+from recalib.nominal import find_urdf
 from recalib.nominal.arms import load_arm
-from recalib.nominal.descriptions import find_urdf
 from tests.identification.real import ARMS, Real, anywhere
 from tests.peers.__main__ import PEERS
 from tests.peers.page import HERE, PAGE, WHO, context, render

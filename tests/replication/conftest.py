@@ -7,10 +7,9 @@ import pandas as pd
 import pytest
 
 from recalib import EncoderShift, LinkShortening
-from replication.config.study import Study
-from replication.scenarios.plants import Resolved
-from replication.training.settings import Space
-from replication.training.tuned import rules_of, trained
+from replication.config import Study
+from replication.scenarios import Resolved
+from replication.training import Space, rules_of, trained
 
 
 @pytest.fixture(scope="session")

@@ -11,7 +11,7 @@ from watched import LiveView
 from recalib import Observations, load_shapes
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import Answer, Ended, LiveSettings, Move, calibrate_live
-from recalib.nominal.descriptions import find_urdf
+from recalib.nominal import find_urdf
 from tests.station.simulated import Simulated
 
 WAITS = {"APART": 0.0002, "SETTLING": 0.02, "PATIENCE": 0.3}  # s

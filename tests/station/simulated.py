@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from recalib import Arm, load_arm
-from recalib.station.interface import cells_of
+from recalib.station import cells_of
 from tests.identification.real import ARMS, NOISE, Real
 
 HOMES = {"Panda": [0, 0.2, 0, -2, 0, 2.2, 0.8]}  # rad

@@ -25,7 +25,7 @@ from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import Answer, Interrupted, LiveSettings, calibrate_live
-from recalib.station.guarded import Guarded
+from recalib.station import Guarded
 from tests.conftest import few_folds
 from tests.identification.real import anywhere
 from tests.logged import logged

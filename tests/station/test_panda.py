@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from recalib import Observations, load_arm, load_correction
-from recalib.identification.closed_forms import solutions
+from recalib.identification import solutions
 from recalib.laboratory.tables.table import read_table
 from tests.conftest import ROOT
 

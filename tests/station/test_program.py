@@ -12,7 +12,7 @@ import pytest
 from recalib import ProgramStation, StationFailed, load_arm, load_correction
 from recalib.laboratory.command_line import DONE, main
 from recalib.laboratory.live.session import Answer, LiveSettings, calibrate_live
-from recalib.station.opening import open_station
+from recalib.station import open_station
 from tests.conftest import ROOT, few_folds
 
 DESCRIBED = {"joints": ["a", "b"], "lower": [-1, -1], "upper": [1, 1]}

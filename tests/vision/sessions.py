@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.files.outputs import write_new
+from recalib.files import write_new
 from recalib.laboratory.pictures.observed import Observed, Picture
 from recalib.laboratory.tables.table import read_table
 from recalib.vision.boards import printable

@@ -14,7 +14,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import RecalibError, load_arm
-from recalib.identification.validation import WAYS
+from recalib.identification import WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures import observe as observing

@@ -11,7 +11,7 @@ from recalib import Description, InvalidFile, Observations
 from recalib.laboratory.live.record import Record
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import SOON
-from recalib.station.pictures import BoardInPictures, PicturesOfABoard
+from recalib.station import BoardInPictures, PicturesOfABoard
 from tests.bars.live import FINER, pictured
 from tests.vision.rendering import Cell
 from tests.vision.test_stations import Photographs

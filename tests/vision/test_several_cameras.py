@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from recalib import RecalibError
-from recalib.identification.model.linearisation import displacements
+from recalib.identification.model import displacements
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import pixel_error

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib import RecalibError, StationFailed
 from recalib.laboratory.command_line import REFUSED, main
-from recalib.station.pictures import BoardInPictures, PicturesOfABoard
+from recalib.station import BoardInPictures, PicturesOfABoard
 from recalib.vision.detection import Corners
 from tests.vision.rendering import Cell
 

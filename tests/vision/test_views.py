@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image
 
-from recalib.identification.model.linearisation import displacements
+from recalib.identification.model import displacements
 from recalib.vision.boards import printable
 from recalib.vision.detection import (
     Unusable,

@@ -11,7 +11,7 @@ import pytest
 from snakemake.api import SnakemakeApi
 from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
-from replication.running.studies import LOCK
+from replication.running import LOCK
 from tests.conftest import ROOT
 from tests.project import Project, kill, wait_until
 

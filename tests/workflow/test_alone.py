@@ -6,8 +6,8 @@ import signal
 import pytest
 
 from recalib import RecalibError
-from recalib.files.storage import whole
-from replication.running.alone import MARK, NOTES, check_known, check_writable, hold
+from recalib.files import whole
+from replication.running import MARK, NOTES, check_known, check_writable, hold
 
 
 def killed_while_writing(path):

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from replication.running import readable
-from replication.running.studies import study_of
-from replication.training.plan import Place, places
+from replication.running import readable, study_of
+from replication.training import Place, places
 from tests.conftest import ROOT
 from tests.project import Project
 

@@ -2,7 +2,7 @@
 
 from inspect import Parameter, signature
 
-from replication.config.study import Study
+from replication.config import Study
 from workflow.scripts.call import function_of
 
 TRACKED = {"function", "study", "code", "digits"}  # for Snakemake, or for the script

@@ -5,8 +5,8 @@ import json
 import pytest
 
 from recalib import RecalibError
-from replication.config.messages import InvalidConfiguration
-from replication.running.studies import LOCK, ship, study_of
+from replication.config import InvalidConfiguration
+from replication.running import LOCK, ship, study_of
 
 
 def of_call(project, *files, asking=False, **changes):

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from recalib import load
-from replication.scenarios.plants import Resolved
+from replication.scenarios import Resolved
 from tests.conftest import ROOT
 from tests.project import Project
 from tests.workflow.conftest import CORES

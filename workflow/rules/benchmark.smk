@@ -96,20 +96,3 @@ rule real_table:
         "Put the results on the real arm together"
     script:
         "../scripts/call.py"
-
-
-rule bench:
-    input:
-        own=OWN.scenario_file(RESULTS),
-    output:
-        f"{RESULTS}/bench.txt",
-    log:
-        f"{RESULTS}/logs/bench.log",
-    resources:
-        **room(mem_mb=2000, runtime=20),
-    params:
-        **calls("training.speed.measure_speed"),
-    message:
-        "Measure the speed of moves"
-    script:
-        "../scripts/call.py"

@@ -1,6 +1,6 @@
 """From histories to one table, the check of it, and a finding for each claim."""
 
-from replication.judgement.evidence import files
+from replication.campaign.setups import DESIGN, OUTCOMES, UNTRAINED
 
 TRAININGS = {
     "resolved": [place.scenario_file(RESULTS) for place in PLACES],
@@ -10,7 +10,9 @@ TRAININGS = {
         for learner in learners
     ],
 }
-PARTS = ["trainings", "mapping", "ensemble"] + ["campaign"] * IS_SHIPPED
+EVIDENCE = [f"{RESULTS}/summary.csv", *TRAININGS["resolved"], *TRAININGS["histories"]]
+EVIDENCE += TABLES * STUDY.experiments.evidence
+EVIDENCE += [DESIGN, OUTCOMES, UNTRAINED] * IS_SHIPPED
 
 
 rule summary:
@@ -32,7 +34,7 @@ rule summary:
 
 rule findings:
     input:
-        [path for part in PARTS for path in files(STUDY, part)],
+        EVIDENCE,
     output:
         f"{RESULTS}/claims.json",
     log:

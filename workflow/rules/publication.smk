@@ -13,13 +13,12 @@ FIGURES = [
 PAGES = [f"{RESULTS}/pages/{page}" for page in pages_of(STUDY)]
 RECORDINGS = [f"{RESULTS}/recordings/{place.scenario}.rrd" for place in recorded_places(STUDY)]
 FINDINGS = f"{RESULTS}/claims.json"
-EVIDENCE_FILES = [path for part in PARTS for path in files(STUDY, part)]
 CHECK = [f"{RESULTS}/check.txt"] if STUDY.expected else []
 
 
 rule figures:
     input:
-        EVIDENCE_FILES,
+        EVIDENCE,
         findings=FINDINGS,
     output:
         figures=FIGURES,
@@ -61,7 +60,7 @@ rule recordings:
 
 rule pages:
     input:
-        EVIDENCE_FILES,
+        EVIDENCE,
         FINDINGS,
         # relative: a project that was moved does not begin again
         templates=[os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],

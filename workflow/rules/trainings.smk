@@ -7,7 +7,6 @@ from replication.training.plan import Place, places
 
 PLACES = places(STUDY)
 OWN = Place(STUDY.robot, STUDY.scenario)
-EVIDENCE = STUDY.experiments.evidence
 SETTINGS = [OUTCOMES] + [f"{RESULTS}/settings/{learner}.csv" for learner in untuned(STUDY, ROOT)]
 
 
@@ -89,16 +88,15 @@ rule ensemble:
     input:
         settings=SETTINGS,
     output:
-        f"{RESULTS}/ensemble/{{learner}}.parquet",
+        f"{RESULTS}/ensemble.parquet",
     log:
-        f"{RESULTS}/logs/ensemble/{{learner}}.log",
+        f"{RESULTS}/logs/ensemble.log",
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("training.ensemble.train_draws"),
-        learner=lambda w: w.learner,
+        **calls("training.ensemble.train_ensemble"),
     message:
-        "Train {wildcards.learner} on many other damages"
+        "Train on other damages"
     script:
         "../scripts/call.py"
 
@@ -143,3 +141,7 @@ rule learning:
         "Learn from a table, and with constant widths"
     script:
         "../scripts/call.py"
+
+
+# What claims, figures and pages read of these.
+TABLES = [*rules.ensemble.output, *rules.mapping.output, *rules.learning.output]

@@ -1,1 +1,5 @@
 """What is estimated: the errors of an arm as parameters, and the residuals of what was measured."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

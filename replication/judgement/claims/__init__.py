@@ -13,7 +13,12 @@ from replication.judgement.claims import (
     section_7,
     section_8,
 )
+from replication.judgement.claims.claim import FEWEST as FEWEST
 from replication.judgement.claims.claim import Claim
+from replication.judgement.claims.claim import Measured as Measured
+from replication.judgement.claims.claim import OfSetups as OfSetups
+from replication.judgement.claims.claim import Statement as Statement
+from replication.judgement.claims.section_5 import integral_ratios as integral_ratios
 from replication.judgement.evidence import Evidence, NotMeasured
 from replication.judgement.findings import Finding, written
 

@@ -70,7 +70,6 @@ def _names(study: Study) -> Iterator[Mistake]:
         (_places(("benchmark", "scenarios"), benchmark.scenarios), study.scenarios),
         (_places(("experiments", "learners"), plan.learners), papers),
         (_places(("experiments", "own"), plan.own), papers),
-        (_places(("experiments", "ensemble"), plan.ensemble), papers),
         (_places(("benchmark", "papers"), benchmark.papers), papers),
         (_places(("benchmark", "learners"), benchmark.learners), peers()),
         (_places(("real", "twin"), real.twin), papers),
@@ -140,9 +139,7 @@ def _scales(study: Study) -> Iterator[Mistake]:
     """Damages that turn an encoder by more than there is."""
     most = math.pi / max(study.paper_damage.shift)
     places = _places(("mapping", "scales"), study.mapping.scales)
-    for learner, series in study.experiments.ensemble.items():
-        for name, its in series.items():
-            places |= _places(("experiments", "ensemble", learner, name, "scales"), its.scales)
+    places |= _places(("experiments", "ensemble", "scales"), study.experiments.ensemble.scales)
     for place, scale in places.items():
         if scale > most * (1 + 1e-9):
             yield unlike(place, scale, f"up to {most:.4g}, where an encoder is off by 180 deg")

@@ -58,8 +58,8 @@ def check_robots(study: Study) -> list[Mistake]:
         each = (list(_of_assignment(robot, study)) for robot in assigned)
         found += next(filter(None, each), [])  # the others' would say the same again
     if study.experiments.evidence and not found:
-        found += _of_mapping(robots[study.robot])
-        found += _of_series(study, robots[study.robot])
+        its_own = robots[study.robot]
+        found += list(_of_mapping(its_own)) or _of_ensemble(study, its_own)
     return found
 
 
@@ -176,18 +176,12 @@ def _of_mapping(robot: Robot) -> Iterator[Mistake]:
         yield unlike(("experiments", "evidence"), True, valid)
 
 
-def _of_series(study: Study, robot: Robot) -> Iterator[Mistake]:
-    """Series of more robots than there are assignments that leave something of every link."""
-    damage, links = study.paper_damage, study.robots[robot.name].links
-    ways = Ways(links, damage.shorten, robot.joints, damage.shift)
-    refused = cache(lambda damage: _refused(robot, damage))
-    for learner, series in study.experiments.ensemble.items():
-        for name, its in series.items():
-            scaled = ([damage.scaled(max(its.scales)) for damage in short] for short in ways.short)
-            fit = sum(not any(map(refused, short)) for short in scaled)
-            most = fit * len(ways.shifted)
-            if its.draws > most:
-                path = "experiments", "ensemble", learner, name, "draws"
-                yield unlike(
-                    path, its.draws, f"at most {most}, for which the links are long enough"
-                )
+def _of_ensemble(study: Study, robot: Robot) -> Iterator[Mistake]:
+    """More robots than there are assignments that leave something of every link."""
+    damage, its = study.paper_damage, study.experiments.ensemble
+    ways = Ways(study.robots[robot.name].links, damage.shorten, robot.joints, damage.shift)
+    refused = cache(lambda damage: _refused(robot, damage.scaled(max(its.scales))))
+    most = sum(not any(map(refused, short)) for short in ways.short) * len(ways.shifted)
+    if its.draws > most:
+        valid = f"at most {most}, for which the links are long enough"
+        yield unlike(("experiments", "ensemble", "draws"), its.draws, valid)

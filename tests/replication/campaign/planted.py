@@ -10,13 +10,10 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
-from replication.campaign.measuring import Replicate, narrower, rows_of
-from replication.campaign.setups import Setup
-from replication.campaign.variants import Variant, variants
-from replication.config.study import Study
-from replication.training.poses import ResultPoses, SearchPoses, Stream
-from replication.training.settings import Space
-from replication.training.trials import Outcome
+from replication.campaign import Replicate, Setup, Variant, narrower, rows_of
+from replication.campaign.variants import variants
+from replication.config import Study
+from replication.training import Outcome, ResultPoses, SearchPoses, Space, Stream
 
 ARM = np.array([0.08, 0.08])  # m, rad: errors without correction
 RUN = 0.07  # deviation of a run, of the logarithm

@@ -5,11 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from replication.campaign.variants import DOUBLE, TWO_MAPS
-from replication.config.reading import read_study
-from replication.config.switches import IMPROVED
+from replication.campaign import DOUBLE, TWO_MAPS
+from replication.config import IMPROVED, read_study
+from replication.judgement import Verdict
 from replication.judgement.claims import claims
-from replication.judgement.verdicts import Verdict
 from tests.replication.campaign.planted import campaign, valley
 
 SETUPS = 9

@@ -6,8 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from replication.judgement.hierarchy import model
-from replication.judgement.verdicts import RATIO, Comparison, Verdict
+from replication.judgement import RATIO, Comparison, Verdict, model
 
 SETUPS, REPLICATED, LUCK = 30, 6, 0.015
 MANY, FEW = 500, 100  # worlds: for a coverage to 2 %; for a power of more than 80 %

@@ -5,8 +5,8 @@ import pytest
 import yaml
 
 from recalib import load_arm
-from replication.config.messages import InvalidConfiguration
-from replication.running.studies import study_of
+from replication.config import InvalidConfiguration
+from replication.running import study_of
 from tests.conftest import ROOT
 
 ARMS = yaml.safe_load((ROOT / "tests" / "arms_of_example_robot_data.yaml").read_text())

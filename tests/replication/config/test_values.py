@@ -4,8 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.config.messages import InvalidConfiguration
-from replication.config.values import from_file, from_mapping, shown
+from replication.config import InvalidConfiguration, from_file, from_mapping, shown
 
 TEXT = """\
 # a study

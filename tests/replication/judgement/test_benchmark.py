@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.judgement.benchmark import moves_to_reach, put_together, real_errors
-from replication.running.outputs import write
-from replication.training.measured import ERRORS
+from replication.judgement import moves_to_reach, put_together, real_errors
+from replication.running import write
+from replication.training import ERRORS
 
 SEEDS = 21
 SCENARIOS, LEARNERS = ("sag", "noise"), ("hybrid", "improved")

@@ -6,12 +6,9 @@ import pytest
 from scipy.stats import t as student
 
 from recalib import RecalibError
-from replication.judgement.checks import BAND, check, expect, propose, report
-from replication.judgement.summary import cells_of_mean, summarise
-from replication.running.outputs import write
-from replication.running.studies import BANDS
-from replication.training.measured import ERRORS
-from replication.training.plan import places
+from replication.judgement import BAND, cells_of_mean, check, expect, propose, report, summarise
+from replication.running import BANDS, write
+from replication.training import ERRORS, places
 
 KEYS = {"robot": "ur10", "learner": "improved", "iterations": 200}
 SUMMARY = pd.DataFrame(

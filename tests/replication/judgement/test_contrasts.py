@@ -4,14 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.judgement.contrasts import (
-    Compromise,
-    Contrast,
-    Crossing,
-    Difference,
-    Remaining,
-    crossing,
-)
+from replication.judgement import Compromise, Contrast, Crossing, Difference, Remaining, crossing
 
 ONE, TWO = Remaining("one", 200), Remaining("two", 200)
 

@@ -5,9 +5,8 @@ from datetime import UTC, datetime
 
 import pytest
 
-from replication.config.shipped import DEVIATIONS
-from replication.judgement.deviations import REMOVED, Change, Deviations
-from replication.judgement.registered import digests
+from replication.config import DEVIATIONS
+from replication.judgement import REMOVED, Change, Deviations, digests
 from tests.conftest import ROOT
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pandas as pd
 
-from replication.judgement.effects import strongest
+from replication.judgement import strongest
 
 SETUPS = 30
 

@@ -3,9 +3,9 @@
 import pandas as pd
 import pytest
 
-from replication.judgement.evidence import Evidence, NotMeasured, files
-from replication.running.outputs import write
-from replication.training.measured import ERRORS
+from replication.judgement import Evidence, NotMeasured
+from replication.running import write
+from replication.training import ERRORS
 
 
 @pytest.fixture
@@ -53,12 +53,3 @@ def test_the_campaign_is_that_of_the_shipped_study(study, tmp_path):
     other = study.model_copy(update={"name": "mine"})
     with pytest.raises(NotMeasured, match="name: replication"):
         Evidence(other, tmp_path).outcomes()
-
-
-def test_a_study_without_evidence_needs_no_mapping_and_no_ensemble(study):
-    plan = study.experiments.model_copy(update={"evidence": False})
-    small = study.model_copy(update={"experiments": plan, "name": "mine"})
-    assert files(small, "mapping") == files(small, "ensemble") == []
-    ensemble = [f"results/ensemble/{learner}.parquet" for learner in ("improved", "ritter")]
-    assert files(study, "ensemble") == ensemble
-    assert "results/studies/mine/robots/ur5/links_encoders.json" in files(small, "trainings")

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import t as student_t
 
-from replication.judgement import hierarchy
-from replication.judgement.hierarchy import model, student
+from replication.judgement import hierarchy, model, student
 
 # Trials of the BCG vaccine (Colditz et al. 1994, JAMA 271): vaccinated with and without
 # tuberculosis, others with and without. Log risk ratios have known variances.

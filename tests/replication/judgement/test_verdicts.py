@@ -5,10 +5,11 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from replication.judgement.hierarchy import Estimate, Model
-from replication.judgement.verdicts import (
+from replication.judgement import (
     RATIO,
     Comparison,
+    Estimate,
+    Model,
     Verdict,
     of_published,
     of_share,

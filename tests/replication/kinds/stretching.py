@@ -5,9 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib import DamagedArm, Robot
-from recalib.damaged.damage import Damage, end_of
-from recalib.damaged.imperfections import Link
-from recalib.files.bounded import Amount
+from recalib.damaged import Damage, Link, end_of
+from recalib.files import Amount
 
 
 @dataclass(frozen=True)

@@ -3,15 +3,18 @@ import pandas as pd
 import pytest
 
 from recalib import BaseShift, EncoderShift, LinkShortening, Plant, apply
-from replication.judgement.claims.section_5 import integral_ratios
-from replication.mapping.coupling import coupling
-from replication.mapping.propagation import (
+from replication.judgement.claims import integral_ratios
+from replication.mapping import (
+    are_same,
     ball,
     grown,
+    joint_solutions,
+    mapping_jacobians,
     propagation_errors,
+    true_commands,
 )
-from replication.mapping.solutions import are_same, joint_solutions, solutions
-from replication.mapping.true_mapping import mapping_jacobians, true_commands
+from replication.mapping.coupling import coupling
+from replication.mapping.solutions import solutions
 from replication.mapping.visits import visits
 
 

@@ -3,16 +3,12 @@
 import numpy as np
 import pytest
 
-from replication.config.shipped import root_of
-from replication.judgement.claims import claims
-from replication.judgement.claims.claim import Measured
-from replication.judgement.evidence import Evidence, NotMeasured
-from replication.judgement.verdicts import Verdict
+from replication.config import root_of
+from replication.judgement import Evidence, NotMeasured, Verdict
+from replication.judgement.claims import Measured, claims
 from replication.mapping import measured, nearness, quantisation, solutions
-from replication.running.outputs import write
-from replication.training import constant_widths
-from replication.training.plan import Place, places
-from replication.training.scenarios import write_scenarios
+from replication.running import write
+from replication.training import Place, constant_widths, places, write_scenarios
 
 FIRST = "coupling", "nearness", "propagation", "quantisation", "solutions", "visits"
 SECOND = "replay", "widths"

@@ -9,13 +9,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.config.shipped import root_of
-from replication.config.study import Study
+from replication.config import Study, root_of
+from replication.judgement import Evidence, written
 from replication.judgement.claims import judge
-from replication.judgement.evidence import Evidence
-from replication.judgement.findings import written
-from replication.training.measured import ERRORS
-from replication.training.plan import Place, places
+from replication.training import ERRORS, Place, places
 from tests.conftest import ROOT
 from tests.replication.plots.conftest import outcomes
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.judgement.findings import read_findings
+from replication.judgement import read_findings
 from tests.conftest import ROOT
 
 pytest.importorskip("rocrate")

@@ -5,9 +5,8 @@ import shutil
 
 import pytest
 
-from replication.pages.contents import Contents
-from replication.pages.writing import write
-from replication.plots.figures import Figure
+from replication.pages import Contents, write
+from replication.plots import Figure
 from tests.conftest import ROOT
 
 EMPTY = '<svg xmlns="http://www.w3.org/2000/svg" width="400" height="200"></svg>'
@@ -18,7 +17,7 @@ def article(study, project, tmp_path_factory) -> tuple[str, Contents]:
     """The text of the PDF, with empty figures."""
     pypdf = pytest.importorskip("pypdf")
     pytest.importorskip("typst")
-    from replication.pages.article import typeset
+    from replication.pages import typeset
 
     folder = project(study, 30)
     (folder / "figures").mkdir()

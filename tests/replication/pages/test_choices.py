@@ -1,6 +1,6 @@
 """Comments of a configuration are the reasons of its keys."""
 
-from replication.pages.choices import read_choices
+from replication.pages import read_choices
 
 TEXT = """
 # of all: no key stands directly below

@@ -2,7 +2,7 @@
 
 import pytest
 
-from replication.judgement.findings import Number
+from replication.judgement import Number
 from replication.pages import formats
 
 

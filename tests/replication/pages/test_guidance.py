@@ -3,9 +3,8 @@
 import pandas as pd
 import pytest
 
-from replication.pages.contents import Contents
-from replication.pages.writing import render
-from replication.training.measured import BOTH
+from replication.pages import Contents, render
+from replication.training import BOTH
 
 ERRORS = {  # of position [cm] after 4 and 8 moves
     "geometric": (0.10, 0.05),

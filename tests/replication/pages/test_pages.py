@@ -6,11 +6,10 @@ from pathlib import Path
 import pytest
 import yaml
 
-from replication.config.reading import read_study
-from replication.judgement.claims.claim import FEWEST
-from replication.pages.contents import Contents
-from replication.pages.writing import OUTCOME, pages_of, render, write
-from replication.plots.figures import Figure
+from replication.config import read_study
+from replication.judgement.claims import FEWEST
+from replication.pages import OUTCOME, Contents, pages_of, render, write
+from replication.plots import Figure
 from tests.conftest import ROOT
 
 FIGURES = [Path(f"{figure.file}.svg") for figure in Figure]

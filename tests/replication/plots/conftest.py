@@ -4,26 +4,19 @@ import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
 
-from replication.campaign.setups import DESIGN
-from replication.campaign.variants import DOUBLE, TWO_MAPS, variants
-from replication.config.reading import read_study
-from replication.config.shipped import CAMPAIGN, RESULTS
-from replication.config.study import Study
-from replication.config.switches import IMPROVED, RITTER
+from replication.campaign import DESIGN, DOUBLE, TWO_MAPS
+from replication.campaign.variants import variants
+from replication.config import CAMPAIGN, IMPROVED, RESULTS, RITTER, Study, read_study
+from replication.judgement import Evidence, written
 from replication.judgement.claims import judge
-from replication.judgement.evidence import Evidence
-from replication.judgement.findings import written
-from replication.plots.drawing import FUNCTIONS
-from replication.plots.figures import Figure
-from replication.plots.style import STYLE, plt
-from replication.running.outputs import write
-from replication.training.competitors import UNCORRECTED
-from replication.training.measured import ERRORS, KINDS
-from replication.training.plan import places, throughout
+from replication.plots import STYLE, Figure, drawn
+from replication.running import write
+from replication.training import ERRORS, KINDS, UNCORRECTED, places, throughout
 from tests.conftest import ROOT
 
 NEEDED = {  # iterations for the improved system's errors, in the reference study
@@ -103,11 +96,11 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
     distance = (assignments - assignments.loc[7]).abs().max(axis=1)
     yield f"{RESULTS}/assignments/{study.robot}.parquet", assignments.assign(distance=distance)
     scales = np.repeat([0.1, 1.0, 3.0], 4)
-    ensemble = {"series": "scaled", "scale": scales}
+    ensemble = {"scale": scales}
     for error, value in zip(ERRORS, INITIAL, strict=True):
         errors = scales * value * np.tile([0.8, 1, 1.1, 1.3], 3)
         ensemble |= {f"initial_{error}": errors, f"final_{error}": errors * LEFT}
-    yield f"{RESULTS}/ensemble/improved.parquet", pd.DataFrame(ensemble)
+    yield f"{RESULTS}/ensemble.parquet", pd.DataFrame(ensemble)
     balls = pd.MultiIndex.from_product(
         [["theta", "jacobian"], ["intact", "damaged"], [0.1, 1.0, 10.0], range(3)],
         names=["kind", "start", "scale", "ball"],
@@ -196,7 +189,7 @@ def figures(evidence):
     found = {}
     with plt.rc_context(STYLE):
         for its in Figure:
-            found[its] = FUNCTIONS[its.value](evidence)
+            found[its] = drawn(its, evidence)
             found[its].draw_without_rendering()
     yield found
     plt.close("all")

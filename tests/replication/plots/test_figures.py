@@ -2,22 +2,29 @@
 
 import runpy
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from replication.campaign.variants import DOUBLE
-from replication.config.switches import IMPROVED, RITTER
+from replication.campaign import DOUBLE
+from replication.config import IMPROVED, RITTER
+from replication.judgement import Crossing, Evidence, Remaining
 from replication.judgement.claims import claims
-from replication.judgement.contrasts import Crossing, Remaining
-from replication.judgement.evidence import Evidence
-from replication.plots import drawing, steady
-from replication.plots.contrasts import LABELS, rows
-from replication.plots.figures import APART, Figure, figures_of
-from replication.plots.learning import leading
-from replication.plots.palette import BOTH, STYLES, styles_of, styles_of_trainings
-from replication.plots.style import plt
+from replication.plots import (
+    APART,
+    BOTH,
+    LABELS,
+    STYLES,
+    Figure,
+    drawing,
+    figures_of,
+    leading,
+    rows,
+    styles_of,
+    styles_of_trainings,
+)
 from tests.conftest import ROOT
-from tests.replication.plots.conftest import NEEDED, NOISE, disturbed
+from tests.replication.plots.conftest import NEEDED, disturbed
 
 
 def files(folder):
@@ -93,7 +100,7 @@ def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project, tmp_pat
             else table[(table["variant"] != RITTER) | (table["iterations"] <= 1000)]
         )
 
-    figure = drawing.FUNCTIONS["steps"](Evidence(small, project(shortened)))
+    figure = drawing.drawn(Figure.STEPS, Evidence(small, project(shortened)))
     assert right_of(figure.axes[1])[0] == "> 1,000 (5×)"
     plt.close(figure)
 
@@ -156,17 +163,6 @@ def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_pa
     quick = other.model_copy(update={"experiments": plan})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
     assert figures_of(quick) == [its.file for its in trained]
-
-
-def test_rounding_keeps_plain_numbers_and_moves_nothing_that_is_seen():
-    values = np.array([0.0, 1, 3, 0.25, 1000, -7.5, 12345.0, 1.2345e-3])
-    assert np.allclose(steady.rounded(values), values, rtol=1e-3)
-    assert steady.rounded([0, 1, 3, 0.25, 1000]).tolist() == [0, 1, 3, 0.25, 1000]
-    halves = np.array([0.12345, 2.5005, 10.015])
-    for sign in (1, -1):
-        near = steady.rounded(halves * (1 + sign * NOISE))
-        assert (steady.rounded(halves) == near).all()
-    assert steady.rounded([3e-11], 0.1).tolist() == [0], "nothing on this axis"
 
 
 def test_every_learner_looks_like_itself_and_unlike_the_others(small):

@@ -6,15 +6,13 @@ from io import StringIO
 from itertools import combinations
 from unittest import mock
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.text import Text
 
-from replication.plots.figures import Figure
-from replication.plots.palette import BOTH, FAILS, HOLDS, SHORTER, STYLES, UNKNOWN
-from replication.plots.steps import STEPS
-from replication.plots.style import plt
+from replication.plots import BOTH, FAILS, HOLDS, SHORTER, STEPS, STYLES, UNKNOWN, Figure
 from tests.replication.recording import test_colours
 from tests.replication.recording.test_colours import SEEN, apart, lab, linear
 

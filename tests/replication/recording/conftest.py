@@ -9,12 +9,9 @@ import pytest
 from rerun.chunk import RrdReader
 
 from recalib import BaseShift, EncoderShift, LinkShortening, Noise, Sag
-from replication.config.study import Study
-from replication.recording.phases import CLOCK
-from replication.recording.recorded import recorded_learners, recorded_places
-from replication.recording.writing import record
-from replication.scenarios.plants import Resolved
-from replication.scenarios.resolving import resolve
+from replication.config import Study
+from replication.recording import CLOCK, record, recorded_learners, recorded_places
+from replication.scenarios import Resolved, resolve
 from replication.training.train import train
 
 OWN, INTACT = "links_encoders", "intact"
@@ -43,7 +40,7 @@ class Files(NamedTuple):
 @pytest.fixture(scope="session")
 def small(study) -> Study:
     """The shipped study with two short trainings and damages of every kind."""
-    plan = {"scenarios": (OWN, INTACT), "robots": (), "own": {}, "switches": False, "ensemble": {}}
+    plan = {"scenarios": (OWN, INTACT), "robots": (), "own": {}, "switches": False}
     plan["learners"] = dict.fromkeys(LEARNERS, (ITERATIONS,))
     changes = {
         "experiments": study.experiments.model_copy(update=plan),

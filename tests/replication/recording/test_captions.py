@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from replication.scenarios.plants import Resolved
+from replication.scenarios import Resolved
 from tests.replication.recording.conftest import reader
 
 

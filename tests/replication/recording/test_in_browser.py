@@ -24,11 +24,10 @@ from recalib import (
     apply,
     train,
 )
-from recalib.nominal.poses import pose_errors
-from replication.recording.in_browser import script
-from replication.recording.recorded import typical_seed
-from replication.scenarios.plants import Resolved
-from replication.training.poses import Stream
+from recalib.nominal import pose_errors
+from replication.recording import script, typical_seed
+from replication.scenarios import Resolved
+from replication.training import Stream
 from tests.conftest import ROOT
 from tests.replication.recording.conftest import ITERATIONS, OWN, TESTS, WIDTHS
 

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from replication.recording.recorded import (
+from replication.recording import (
     published_errors,
     recorded_iterations,
     recorded_learners,

@@ -6,15 +6,21 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import apply, position_error
-from replication.config.damages import damages_among
-from replication.recording import colours
-from replication.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, move
-from replication.recording.recorded import typical_seed
-from replication.recording.scene import AXIS, unit_of
-from replication.recording.sight import sight_of
-from replication.recording.watched import visiting_order
-from replication.training.measured import ERRORS
-from replication.training.poses import Stream
+from replication.config import damages_among
+from replication.recording import (
+    AXIS,
+    BEFORE,
+    FRAMES_A_SECOND,
+    POSES,
+    VISIT,
+    colours,
+    move,
+    sight_of,
+    typical_seed,
+    unit_of,
+    visiting_order,
+)
+from replication.training import ERRORS, Stream
 from tests.replication.recording.conftest import ITERATIONS, LEARNERS, OWN, TESTS
 
 VISITS = POSES * VISIT  # frames

@@ -9,10 +9,9 @@ from rerun.chunk import RrdReader
 
 from recalib import InvalidFile, LinkShortening, PolynomialLearner
 from recalib.laboratory.viewer.process import PROGRAM, quiet
-from replication.recording.recorded import typical_seed
+from replication.recording import check_end, record, typical_seed, write_recording
 from replication.recording.watched import watch
-from replication.recording.writing import check_end, record, write_recording
-from replication.training.poses import Stream
+from replication.training import Stream
 from tests.replication.recording.conftest import DAMAGES, OWN, reader, trained
 
 

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from recalib import apply, orientation_error, position_error
-from recalib.numerics.randomness import generator
-from replication.config.study import PaperDamage, Published
-from replication.scenarios.assignments import Ways, assign, compare
+from recalib.numerics import generator
+from replication.config import PaperDamage, Published
+from replication.scenarios import Ways, assign, compare
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_1_link", "wrist_2_link"]
 

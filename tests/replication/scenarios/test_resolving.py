@@ -5,12 +5,10 @@ import pandas as pd
 import pytest
 
 from recalib import EncoderShift, LinkShortening, Noise, Outliers, Repeatability
-from replication.judgement.evidence import Evidence, NotMeasured
-from replication.running.outputs import write
-from replication.scenarios.plants import Resolved
-from replication.scenarios.resolving import resolve
-from replication.training.plan import places
-from replication.training.scenarios import write_scenarios
+from replication.judgement import Evidence, NotMeasured
+from replication.running import write
+from replication.scenarios import Resolved, resolve
+from replication.training import places, write_scenarios
 
 
 @pytest.fixture(scope="module")

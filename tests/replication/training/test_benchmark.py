@@ -1,6 +1,6 @@
 import pandas as pd
 
-from replication.training.benchmark import Timed, compete, measured_at
+from replication.training import Timed, compete
 
 
 def of(study, **update):
@@ -8,11 +8,6 @@ def of(study, **update):
     training = study.training.model_copy(update={"tests": 3})
     benchmark = study.benchmark.model_copy(update=plan)
     return study.model_copy(update={"benchmark": benchmark, "training": training})
-
-
-def test_a_map_is_measured_where_its_moves_meet_a_budget():
-    assert measured_at([1, 2, 3, 4, 400, 1000], iterations=200, moves=2) == [1, 2, 200]
-    assert measured_at([1, 2, 3, 500], iterations=400, moves=1) == [1, 2, 3]
 
 
 def test_scenarios_side_by_side_are_what_each_of_them_is_alone(study):

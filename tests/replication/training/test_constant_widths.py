@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
+from replication.training import Stream, rules_of
 from replication.training import constant_widths as its
-from replication.training.poses import Stream
-from replication.training.tuned import rules_of
 
 RUNS, ITERATIONS = 3, 40
 

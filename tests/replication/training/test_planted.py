@@ -8,10 +8,9 @@ import pytest
 
 from recalib.learners import kernels
 from recalib.learners import rules as learning_rules
-from replication.judgement.checks import check, expect
-from replication.judgement.summary import summarise
-from replication.running.outputs import write
-from replication.scenarios.resolving import resolve
+from replication.judgement import check, expect, summarise
+from replication.running import write
+from replication.scenarios import resolve
 from replication.training.train import train
 from tests.replication.conftest import settings_of
 

@@ -6,14 +6,23 @@ import numpy as np
 import pytest
 
 from recalib import History
-from replication.campaign.own import tune
+from replication.campaign import tune
 from replication.mapping import measured
-from replication.training import benchmark, ensemble, real_arm, train
+from replication.training import (
+    Place,
+    ResultPoses,
+    SearchPoses,
+    Stream,
+    Tuning,
+    benchmark,
+    ensemble,
+    places,
+    real_arm,
+    train,
+    train_for_results,
+    write_scenarios,
+)
 from replication.training import poses as module
-from replication.training.plan import Place, places
-from replication.training.poses import ResultPoses, SearchPoses, Stream, train_for_results
-from replication.training.scenarios import write_scenarios
-from replication.training.search import Tuning
 from tests.replication.conftest import settings_of
 
 WORDS = {"number": 1, "setup": 0, "replicate": 0, "widths": "wide"}
@@ -70,9 +79,6 @@ def few(study):
         "own": {"ritter": (20,)},
         "iterations": 20,
         "switches": False,
-        "ensemble": {
-            "improved": {"scaled": study.experiments.ensemble["improved"]["scaled"]},
-        },
     }
     rest = {
         "search": {"trials": 16, "near_trials": 16, "runs": 2, "fresh": 4, "doublings": 0},
@@ -136,7 +142,7 @@ def all_jobs(study, folder, monkeypatch):
         train.train(study, *place, files[place], settings, *its)
     for learner in ("improved", "ritter"):
         tune(study, learner, own)
-    ensemble.train_draws(study, "improved", settings)
+    ensemble.train_ensemble(study, settings)
     for learner in ("affine", "improved"):
         benchmark.compete(study, learner, settings)
     measured.learn(study, own, settings)

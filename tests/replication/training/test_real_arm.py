@@ -20,12 +20,19 @@ from recalib import (
     read_description,
 )
 from recalib.laboratory.plausibility.mistakes import WrongNominal
-from replication.config.study import Source
-from replication.scenarios.plants import nominal_robot
-from replication.training.competitors import peers
-from replication.training.real_arm import learn, remaining_errors, with_tool_point
-from replication.training.tracker import fetch, fetched, read_of, read_whole_description
-from replication.training.tuned import Tuned
+from replication.config import Source
+from replication.scenarios import nominal_robot
+from replication.training import (
+    Tuned,
+    fetch,
+    fetched,
+    learn,
+    peers,
+    read_of,
+    read_whole_description,
+    remaining_errors,
+    with_tool_point,
+)
 from tests.conftest import ROOT
 
 # As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.

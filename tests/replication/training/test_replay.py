@@ -1,7 +1,7 @@
 import pytest
 
+from replication.training import Tuned
 from replication.training.replay import replay
-from replication.training.tuned import Tuned
 
 
 def test_a_learner_learns_the_same_from_a_table_as_from_the_robot(study, uneven, settings):

@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 
 from recalib import Rules
-from replication.config.campaign import Ranges, RoughSearch
-from replication.training.poses import SearchPoses, Stream
-from replication.training.search import Tuning, worse
-from replication.training.settings import Space
-from replication.training.trials import Trials
+from replication.config import Ranges, RoughSearch
+from replication.training import SearchPoses, Space, Stream, Trials, Tuning, worse
 from tests.replication.campaign.planted import valley
 
 NONE = np.zeros((1, 0, 6))

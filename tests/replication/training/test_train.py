@@ -8,11 +8,11 @@ import pytest
 from scipy.stats import qmc
 
 from recalib import load
-from recalib.numerics.randomness import generator
-from replication.config.study import Measuring
-from replication.running.outputs import write
+from recalib.numerics import generator
+from replication.config import Measuring
+from replication.running import write
+from replication.training import Stream
 from replication.training import train as module
-from replication.training.poses import Stream
 from replication.training.train import train
 from tests.replication.conftest import settings_of
 

@@ -1,6 +1,6 @@
-"""How fast are moves, in one process and beside a bare loop over Pinocchio?"""
+"""How fast moves are, beside a bare loop of Pinocchio: python -m tests.bars.moves SCENARIO.json."""
 
-from pathlib import Path
+import sys
 from timeit import timeit
 
 import numpy as np
@@ -26,13 +26,9 @@ def bare_loop(robot: Robot, arm: DamagedArm, angles: np.ndarray) -> None:
         pin.updateFramePlacement(damaged, other, frame)
 
 
-def measure_speed(own: Path) -> str:
-    """A line for moves, one for the bare loop, and one for their ratio.
-
-    Args:
-        own: file of the study's own scenario as resolved.
-    """
-    resolved = Resolved.read(own)
+def main(scenario: str) -> None:
+    """Print a line for moves, one for the bare loop, and one for their ratio."""
+    resolved = Resolved.read(scenario)
     controller = resolved.controller()
     robot, arm = controller.robot, resolved.arm(controller.robot)
     plant, rng = Plant(controller, arm), np.random.default_rng(0)
@@ -47,10 +43,10 @@ def measure_speed(own: Path) -> str:
         for _ in range(REPEATS)
     ]
     ours, bare = np.median(pairs, axis=0) / len(angles)
-    text = (
-        f"moves, {RUNS} runs side by side: {1 / ours:,.0f} a second\n"
-        f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second\n"
-        f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}\n"
-    )
-    print(text, end="")
-    return text
+    print(f"moves, {RUNS} runs side by side: {1 / ours:,.0f} a second")
+    print(f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second")
+    print(f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,26 @@
+"""The public names and their modules."""
+
+from .calibration import calibrate as calibrate
+from .closed_forms import OPEN as OPEN
+from .closed_forms import solutions as solutions
+from .closed_forms import turns_by_poses as turns_by_poses
+from .consensus import identify_by_consensus as identify_by_consensus
+from .design import most_informative as most_informative
+from .estimation import Identification as Identification
+from .estimation import identify as identify
+from .held_out import FOLDS as FOLDS
+from .held_out import HeldOut as HeldOut
+from .held_out import blocks as blocks
+from .held_out import random_folds as random_folds
+from .initial_estimate import NoInitialEstimate as NoInitialEstimate
+from .initial_estimate import joined_frames as joined_frames
+from .parameters import parameters_of as parameters_of
+from .unseen import Unseen as Unseen
+from .validation import BLOCKWISE as BLOCKWISE
+from .validation import GEOMETRIC as GEOMETRIC
+from .validation import HYBRID as HYBRID
+from .validation import KINDS as KINDS
+from .validation import NOTHING as NOTHING
+from .validation import RANDOM as RANDOM
+from .validation import WAYS as WAYS
+from .validation import validate as validate

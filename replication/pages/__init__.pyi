@@ -1,0 +1,9 @@
+"""The public names and their modules."""
+
+from .article import typeset as typeset
+from .choices import read_choices as read_choices
+from .contents import Contents as Contents
+from .writing import OUTCOME as OUTCOME
+from .writing import pages_of as pages_of
+from .writing import render as render
+from .writing import write as write

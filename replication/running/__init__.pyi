@@ -1,0 +1,13 @@
+"""The public names and their modules."""
+
+from .alone import MARK as MARK
+from .alone import NOTES as NOTES
+from .alone import check_known as check_known
+from .alone import check_writable as check_writable
+from .alone import hold as hold
+from .layers import LAYERS as LAYERS
+from .outputs import write as write
+from .studies import BANDS as BANDS
+from .studies import LOCK as LOCK
+from .studies import ship as ship
+from .studies import study_of as study_of
