@@ -25,6 +25,7 @@ from xml.etree import ElementTree
 
 import cv2
 import numpy as np
+import pinocchio as pin
 
 from recalib import load_arm
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
@@ -236,7 +237,7 @@ def unreadable(out: Path) -> str | None:
             match path.suffix:
                 case ".urdf":
                     ElementTree.fromstring(content)
-                    load_arm(path)
+                    pin.buildModelFromUrdf(str(path))
                 case ".svg":
                     ElementTree.fromstring(content)
                 case ".json":
