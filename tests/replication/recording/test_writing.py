@@ -8,8 +8,8 @@ import rerun as rr
 from rerun.chunk import RrdReader
 
 from recalib import InvalidFile, LinkShortening, PolynomialLearner
-from recalib.laboratory.viewer.process import PROGRAM, quiet
 from replication.recording.recorded import typical_seed
+from replication.recording.viewer import PROGRAM, quiet
 from replication.recording.watched import watch
 from replication.recording.writing import check_end, record, write_recording
 from replication.training.poses import Stream
