@@ -35,7 +35,7 @@ from tests.laboratory.conftest import in_degrees, write
 from tests.vision.rendering import Cell
 from tests.vision.sessions import write_joints, write_session
 
-SECONDS, PICTURES = 60, 6
+SECONDS, PICTURES = 60, 11
 CALIBRATE = ["calibrate", "arm.urdf", "rows.csv", "--description=it.toml"]
 OBSERVE = ["observe", "pictures", "joints.csv", "--board=board.toml"]
 VISUAL = (
@@ -93,6 +93,11 @@ def prepare(folder: Path) -> None:
     (folder / "of/observed").rename(folder / "seen")
     shutil.copy(folder / "seen/lens.yaml", folder / "lens.yaml")
     assert run([*CALIBRATE, "--out=calibration"], folder)[0] == DONE
+    for number, words in enumerate(COMMANDS.values()):
+        code, lines = run([*words, f"--out=plain{number}"], folder)
+        assert code == DONE, lines
+    for plain in folder.glob("plain*"):
+        shutil.rmtree(plain) if plain.is_dir() else plain.unlink()
 
 
 def run(words: list[str], folder: Path) -> tuple[int, str]:

@@ -94,6 +94,7 @@ class Cell(Real):
         self.setup, self.nominal = setup, arm_called(setup.arm)
         super().__init__(self.nominal, seed, gears=setup.gears)
         self._waves[2] = 0.0  # each joint's own, as gears are
+        self._waves[:, self.nominal.slides] = 0.0
         self.noise = setup.noise * np.array(NOISE)
         low, high = (np.clip(limit, -np.pi, np.pi) for limit in self._limits)
         middle, reach = (low + high) / 2, (high - low) / 2
