@@ -12,6 +12,7 @@ from recalib.errors import InvalidSetting, UnknownName
 from recalib.identification.calibration import Calibration, turned
 from recalib.identification.checks.gains import WrongGain, wrong_gain
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
+from recalib.identification.checks.outliers import Displaced, Exchanged, displaced, exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import Fault, faults
 from recalib.identification.estimation import DOUBTFUL
@@ -152,6 +153,16 @@ class Results:
     def faults(self) -> list[Fault]:
         """What the order of the rows shows: a lag, a drift, a jump."""
         return without_shift(faults(self.geometry, self.data.observations), self.mistake)
+
+    @cached_property
+    def exchanged(self) -> Exchanged | None:
+        """Outliers whose measurements fit the joints of other rows."""
+        return exchanged(self.geometry, self.data.observations)
+
+    @cached_property
+    def displaced(self) -> list[Displaced]:
+        """Runs of outliers that are off alike."""
+        return displaced(self.geometry, self.data.observations)
 
     @cached_property
     def wrong_gain(self) -> WrongGain | None:

@@ -22,8 +22,17 @@ ERROR = "Error:"  # before what urdfdom finds wrong
 
 
 def check_description(robot: Element, path: Path) -> None:
-    """Raise UnsuitableRobot unless links are a tree, and joints and masses have finite numbers."""
+    """Raise UnsuitableRobot unless links are a tree, and joints and masses have finite numbers.
+
+    Names of links and joints have to be words that a message and a table can show.
+    """
     carried: dict[str, str] = {}
+    for part in (*robot.iterfind("link"), *robot.iterfind("joint")):
+        if not (name := part.get("name", "-")).strip() or not name.isprintable():
+            raise UnsuitableRobot(
+                f"a {part.tag} in {path} has the name {part.get('name')!r}; expected: letters that"
+                " can be printed"
+            )
     for joint in robot.iterfind("joint"):
         child, name = joint.find("child"), joint.get("name", "")
         link = "" if child is None else child.get("link", "")

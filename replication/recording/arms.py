@@ -8,7 +8,7 @@ import rerun as rr
 from recalib.damaged.damage import Damage, apply
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
-from recalib.laboratory.viewer.scene import link_placements, log_meshes, send_frame
+from recalib.laboratory.scene import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
 from recalib.nominal.robots import Robot
 from replication.recording.colours import DAMAGE, NOMINAL, REACHED

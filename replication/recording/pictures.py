@@ -16,8 +16,8 @@ from rerun.experimental import ViewerClient
 
 from recalib.errors import RecalibError
 from recalib.files.storage import whole
-from recalib.laboratory.viewer.process import HERE, PATIENCE, answer, free_port, viewer
 from replication.recording.phases import ARM, BEFORE, CLOCK, VISIT
+from replication.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
 
 WINDOW = 1400, 800  # pixels
 TOP_BAR = 37  # pixels of it: the window's own bar, which shows nothing of the recording

@@ -18,7 +18,7 @@ from typing import Any
 import jinja2
 
 from recalib.errors import RecalibError
-from recalib.laboratory.viewer.process import HERE
+from replication.recording.viewer import HERE
 from replication.recording.web_viewer import copy_viewer
 
 TEMPLATE = Path(__file__).resolve().parents[2] / "workflow" / "templates" / "watch.html.j2"

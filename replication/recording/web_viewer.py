@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from urllib.request import urlopen
 
-from recalib.laboratory.viewer.process import HERE, answer, free_port, viewer
+from replication.recording.viewer import HERE, answer, free_port, viewer
 
 PAGE, PROGRAM = "index.html", "re_viewer_bg.wasm"
 ELSEWHERE = re.compile(r"<link[^>]*https://[^>]*>")  # fonts of the viewer's page

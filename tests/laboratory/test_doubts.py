@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from recalib import OFFSETS, Observations, load_arm
 from recalib.identification import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, parameters_of
 from recalib.identification.checks.diagnostics import Untrustworthy
+from recalib.identification.checks.outliers import Displaced, Exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.model import ErrorModel, Frames
@@ -46,6 +47,8 @@ def result(
         scales={},
         mistake=None,
         wrong_gain=None,
+        displaced=[],
+        exchanged=None,
         unseen=0,
         unidentifiable=[],
     )
@@ -89,6 +92,17 @@ def test_what_wear_does_not_do_is_doubted_by_name(name, said, deviations):
     value = re.search(r"[0-9.]+ (mm|deg)$", said)[0].split()[0]
     expected = f"the {name} {said.format(f'{deviations * float(value):.3g}')}"
     assert (expected in told) == (bool(told)) == (abs(deviations) > 3)
+
+
+def test_outliers_with_one_cause_are_told_by_their_rows():
+    found = result({}, GEOMETRIC)
+    found.displaced = [Displaced(20, 34, 5e-3, np.radians(0.2))]
+    found.exchanged = Exchanged(np.array([10, 11]), np.array([11, 10]))
+    elsewhere, order = doubts(found)
+    assert "in rows 21 to 35 instrument or base seem to have stood 5 mm and 0.2 deg" in elsewhere
+    assert "the measurements of rows 11 and 12 fit the joints of rows 12 and 11" in order
+    found.exchanged = Exchanged(np.arange(10), np.roll(np.arange(10), 1))
+    assert "of 10 rows, such as 1, 2, 3, 4, 5 and 6 fit" in [*doubts(found)][-1]
 
 
 @pytest.mark.parametrize(

@@ -54,6 +54,9 @@ LOOP = (
             ('xyz="0.4 0 0"', 'xyz="0.4 0"'),
             "the origin of two has xyz '0.4 0'; expected: three num",
         ),
+        (('name="one"', 'name="o&#10;ne"'), r"a joint in arm.urdf has the name 'o\\nne'"),
+        (('name="two"', 'name=" "'), "a joint in arm.urdf has the name ' '"),
+        (('name="link_2"', 'name="a&#x202e;"'), r"a link in arm.urdf has the name 'a\\u202e'"),
         (("</robot>", "<robot>"), r"it is not XML: line \d+, column \d+: no element found"),
     ],
 )

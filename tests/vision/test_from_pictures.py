@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import RecalibError, load_arm
+from recalib import InvalidFile, RecalibError, load_arm
 from recalib.identification import WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
@@ -141,6 +141,36 @@ def test_a_folder_that_was_changed_is_refused(file, change, said, observed, tmp_
     arguments = [str(tmp_path), "--tool=panda_link8", f"--out={tmp_path / 'new'}"]
     assert main(["calibrate", "panda.urdf", *arguments]) == REFUSED
     assert said in capsys.readouterr().err
+
+
+WRONG_CORNERS = {  # what becomes of the pixels (c, 2) of one picture, or of all
+    "mirrored": lambda pixels, random: [1279, 0] + [-1, 1] * pixels,
+    "shuffled": lambda pixels, random: random.permutation(pixels),
+    "anywhere": lambda pixels, random: random.uniform(0, 960, pixels.shape),
+    "in one place": lambda pixels, random: 500 + 1e-4 * random.standard_normal(pixels.shape),
+    "tiny": lambda pixels, random: 1e-3 * pixels,
+    "flat": lambda pixels, random: pixels * [1, 0.01] + random.standard_normal(pixels.shape),
+    "u and v exchanged": lambda pixels, random: pixels[:, ::-1],
+    "far outside": lambda pixels, random: 10 * pixels,
+    "one elsewhere": lambda pixels, random: np.vstack([pixels[1] - 200, pixels[1:]]),
+}
+
+
+@pytest.mark.parametrize("every", [True, False], ids=["all pictures", "one picture"])
+@pytest.mark.parametrize("wrong", WRONG_CORNERS)
+def test_corners_that_no_board_can_have_are_refused(wrong, every, observed, tmp_path):
+    shutil.copytree(observed[0], tmp_path, dirs_exist_ok=True)
+    path, random = tmp_path / "corners.csv", np.random.default_rng(0)
+    header, *rows = [row.split(",") for row in path.read_text().splitlines()]
+    for name in {row[0] for row in rows} if every else ["003.png"]:
+        own = [row for row in rows if row[0] == name]
+        pixels = np.array([row[2:] for row in own], dtype=float)
+        for row, (u, v) in zip(own, WRONG_CORNERS[wrong](pixels, random), strict=True):
+            row[2:] = f"{u:.4f}", f"{v:.4f}"
+    path.write_text("\n".join(",".join(row) for row in [header, *rows]))
+    with pytest.raises(InvalidFile, match=r"can have them|expected: inside|on a line") as error:
+        Cameras.read([tmp_path], load_arm("panda.urdf", "panda_link8"))
+    assert every or "003.png" in str(error.value)
 
 
 def test_rows_may_be_taken_out_and_moved(observed, tmp_path):

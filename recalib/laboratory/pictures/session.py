@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 
 from recalib.errors import InvalidFile
@@ -36,6 +37,7 @@ LAYOUT = (
 )
 MOST_CORNERS = 1_000_000
 FLAT = 1e-3  # the width of corners in a picture over their length: less is a line
+SMALLEST, BENT = 3.0, 0.3  # px of a board, rms; the part of that which distortion may move a corner
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,7 @@ class Session:
             raise InvalidFile(path, "camera_name or board_name is not as observe wrote it")
         board, lens = board_in(setup, path), read_lens(folder / LENS)
         rows = read_joints(folder / OBSERVED, arm)
-        views = _views(folder / CORNERS, rows, board)
+        views = _views(folder / CORNERS, rows, board, lens.size)
         return cls(folder, names[0], names[1], camera == IN_HAND, fitted, board, lens, rows, views)
 
     def conflict(self, other: "Session") -> str | None:
@@ -106,7 +108,7 @@ class Session:
         return None
 
 
-def _views(path: Path, rows: Measurements, board: Board) -> list[Corners]:
+def _views(path: Path, rows: Measurements, board: Board, size: tuple[int, int]) -> list[Corners]:
     """The corners in each row's picture: rows may have been taken out or moved.
 
     Raises InvalidFile: corners that no picture of the board can have.
@@ -125,8 +127,30 @@ def _views(path: Path, rows: Measurements, board: Board) -> list[Corners]:
             raise InvalidFile(path, f"{picture} has {counted(len(numbers), 'corner')}")
         if len(np.unique(numbers)) < len(numbers):
             raise InvalidFile(path, f"{picture} has a corner twice")
+        if (outside := ((pixels < -1) | (pixels > size)).any(axis=1)).any():
+            u, v = pixels[outside][0]
+            found = f"corner {numbers[outside][0]} of {picture} is at ({u:.6g}, {v:.6g}) px"
+            raise InvalidFile(path, f"{found}; expected: inside {size[0]} x {size[1]} px")
         widths = np.linalg.svd(pixels - pixels.mean(axis=0), compute_uv=False)
         if are_on_a_line(board, numbers) or widths[1] <= FLAT * widths[0]:
             raise InvalidFile(path, f"all corners of {picture} are on a line")
+        if not _are_of(points[numbers], pixels):
+            found = f"corners of {picture} are not where a board of squares can have them"
+            raise InvalidFile(path, f"{found}; try: remove its row")
         views.append(Corners(numbers, pixels, 0.0))
     return views
+
+
+def _are_of(points: np.ndarray, pixels: np.ndarray) -> bool:
+    """Whether pixels (c, 2) can be of points (c, 3) of a board, whatever the lens.
+
+    A homography leaves the distortion of the lens. It is of a board that faces the camera.
+    """
+    size = np.sqrt(np.mean(np.sum((pixels - pixels.mean(axis=0)) ** 2, axis=1)))
+    homography, _ = cv2.findHomography(points[:, :2], pixels) if size > SMALLEST else (None, None)
+    if homography is None:
+        return False
+    there = cv2.perspectiveTransform(points[:, None, :2], homography)[:, 0]
+    weights = points[:, :2] @ homography[2, :2] + homography[2, 2]
+    off = np.linalg.norm(pixels - there, axis=1).max()
+    return bool(off < BENT * size and np.linalg.det(homography) > 0 and (weights > 0).all())

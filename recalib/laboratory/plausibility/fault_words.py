@@ -5,10 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from recalib.identification.checks.gains import WrongGain
+from recalib.identification.checks.outliers import Displaced, Exchanged
 from recalib.identification.checks.sequence import DRIFT, GROWTH, JUMP, LAG, SLIP, Fault
 from recalib.identification.model.frames import Frames
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.plausibility.mistakes import SHIFTED
+from recalib.spelling import listed
+
+MOST = 6  # rows that are listed
 
 
 def without_shift(found: Sequence[Fault], mistake: str | None) -> list[Fault]:
@@ -52,6 +56,25 @@ def in_words(fault: Fault, data: DataSet, frames: Frames) -> str:
         SLIP: f"{between} {moves} seems to have slipped on the tool by {moved}; {parts}",
     }
     return where + sentences[fault.kind]
+
+
+def displaced_in_words(run: Displaced) -> str:
+    """Rows that were measured from elsewhere: a sentence without its full stop."""
+    off = f"{_short(1e3 * run.shift)} mm and {_short(np.degrees(run.turn))} deg"
+    return (
+        f"in rows {run.first + 1} to {run.last + 1} instrument or base seem to have stood {off}"
+        " from where they stood in all others; try without these rows"
+    )
+
+
+def exchanged_in_words(found: Exchanged) -> str:
+    """Rows that hold the measurements of others: a sentence without its full stop."""
+    rows, others = (
+        listed([str(row + 1) for row in numbers[:MOST]], "and")
+        for numbers in (found.rows, found.others)
+    )
+    of = f"{len(found.rows)} rows, such as " if len(found.rows) > MOST else "rows "
+    return f"the measurements of {of}{rows} fit the joints of rows {others}; check their order"
 
 
 def gain_in_words(wrong: WrongGain, joints: Sequence[str]) -> str:

@@ -7,7 +7,12 @@ import numpy as np
 from recalib.identification.checks.poses import turned_axes
 from recalib.identification.model.frames import HELD
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
-from recalib.laboratory.plausibility.fault_words import gain_in_words, in_words
+from recalib.laboratory.plausibility.fault_words import (
+    displaced_in_words,
+    exchanged_in_words,
+    gain_in_words,
+    in_words,
+)
 from recalib.laboratory.report.identified import named_parameters, unidentifiable_directions
 from recalib.laboratory.results import Results
 from recalib.spelling import counted
@@ -31,6 +36,10 @@ def doubts(result: Results) -> Iterator[str]:
         yield f"Careful: {doubt}."
     for fault in result.faults:
         yield f"Careful: {in_words(fault, result.data, result.frames)}."
+    for run in result.displaced:
+        yield f"Careful: {displaced_in_words(run)}."
+    if result.exchanged:
+        yield f"Careful: {exchanged_in_words(result.exchanged)}."
     if result.wrong_gain and not result.mistake:
         yield f"Careful: {gain_in_words(result.wrong_gain, result.arm.joints)}."
     yield from _outvoted(result)

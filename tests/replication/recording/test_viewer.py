@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from recalib.laboratory.viewer.process import PROGRAM, quiet
 from replication.recording import ARM, BEFORE, ends, take_pictures
+from replication.recording.viewer import PROGRAM, quiet
 
 FOLDERS = "/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"
 DRIVERS = [path for folder in FOLDERS for path in Path(folder).glob("*.json")]

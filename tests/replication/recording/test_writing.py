@@ -8,8 +8,8 @@ import rerun as rr
 from rerun.chunk import RrdReader
 
 from recalib import InvalidFile, LinkShortening, PolynomialLearner
-from recalib.laboratory.viewer.process import PROGRAM, quiet
 from replication.recording import check_end, record, typical_seed, write_recording
+from replication.recording.viewer import PROGRAM, quiet
 from replication.recording.watched import watch
 from replication.training import Stream
 from tests.replication.recording.conftest import DAMAGES, OWN, reader, trained

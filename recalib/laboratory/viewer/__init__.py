@@ -1,1 +1,0 @@
-"""The Rerun viewer, and arms in it."""
