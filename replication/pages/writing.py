@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
 
 from recalib.files.storage import whole
 from replication.config.shipped import SHIPPED
@@ -46,13 +47,15 @@ def write(
 
 def render(page: str, contents: Contents) -> str:
     """The text of a page."""
+    typeset = page.endswith(".typ")
     environment = Environment(
         loader=FileSystemLoader(contents.project / TEMPLATES),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        finalize=_escaped if page.endswith(".typ") else None,
+        autoescape=typeset,  # a macro's text is then Markup, which stays as it is
+        finalize=_escaped if typeset else None,
     )
     environment.globals |= {name: its for name, its in vars(formats).items() if callable(its)}
     environment.globals["Figure"] = Figure
@@ -60,6 +63,8 @@ def render(page: str, contents: Contents) -> str:
     return environment.get_template(f"{page}.j2").render(results=contents, study=contents.study)
 
 
-def _escaped(value: object) -> object:
+def _escaped(value: object) -> Markup:
     """A value whose signs are no markup of Typst."""
-    return MARKUP.sub(lambda sign: "\\" + "\\".join(sign[0]), str(value))
+    if isinstance(value, Markup):
+        return value
+    return Markup(MARKUP.sub(lambda sign: "\\" + "\\".join(sign[0]), str(value)))

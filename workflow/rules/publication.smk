@@ -63,6 +63,7 @@ rule pages:
     input:
         EVIDENCE_FILES,
         FINDINGS,
+        "pyproject.toml",
         templates=[str(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],
         figures=FIGURES,
     output:
@@ -215,7 +216,7 @@ rule article:
     input:
         source=f"{RESULTS}/pages/article.typ",
         references="workflow/article/references.bib",
-        figures=FIGURES,
+        figures=[*FIGURES, "figures/method.svg", f"figures/{Figure.BENCHMARK.file}.svg"],
     output:
         article=f"{RESULTS}/article.pdf",
     log:
