@@ -58,8 +58,8 @@ def real_arm(evidence: Evidence) -> Figure:
             shown = None if number else label
             _draw(axes, piece["poses"], piece, REAL, styles[learner], learner == UNDER, shown)
     axes.axhline(published, **BORDER)
-    its = {"va": "bottom", "ha": "right", "color": GREY}
-    note(axes, f"published: {published:g} mm", (table["poses"].max(), published), (0, 2), **its)
+    its = {"va": "top", "ha": "right", "color": GREY}
+    note(axes, f"published: {published:.2g} mm", (table["poses"].max(), published), (0, -2), **its)
     axes.set_xlabel("recorded poses, or moves on the twin")
     axes.set_ylabel("mean position error [mm]")
     logarithmic(axes.xaxis, 5, 20, 100, 500, 2000, 20_000)

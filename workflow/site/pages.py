@@ -13,7 +13,7 @@ SHOWN = (
     "*.md",
     "docs/*.md",
     "figures/*.[psw][nve]*",
-    "examples/**/*.py",
+    "examples/**/*.[jp][sy]",
     "CITATION.cff",
     "config.yaml",
     "LICENSE",
