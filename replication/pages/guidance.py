@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from replication.pages.formats import short
-from replication.training.competitors import label_of, needs_of, peers
+from replication.training.competitors import label_of, peers
 from replication.training.measured import BOTH, ERRORS, KINDS
 
 HYBRID = "hybrid"
@@ -56,7 +56,6 @@ class Benchmark:
         self._reached = reached[both].set_index(["scenario", "learner"])
         self.learners = list(errors["learner"].unique())
         self.labels = [label_of(name) for name in self.learners]
-        self.needs = {label_of(name): needs_of(name) for name in self.learners}
         self.seeds = int(errors["seeds"].max())
 
     @property
