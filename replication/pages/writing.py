@@ -57,10 +57,17 @@ def render(page: str, contents: Contents) -> str:
         autoescape=typeset,  # a macro's text is then Markup, which stays as it is
         finalize=_escaped if typeset else None,
     )
+    environment.filters["quoted"] = _quoted
     environment.globals |= {name: its for name, its in vars(formats).items() if callable(its)}
     environment.globals["Figure"] = Figure
     environment.globals |= {"on_real_arm": guidance.on_real_arm, "ends": guidance.ends_on_twin}
     return environment.get_template(f"{page}.j2").render(results=contents, study=contents.study)
+
+
+def _quoted(value: str) -> Markup:
+    """A string of Typst's code."""
+    text = value.replace("\\", "\\\\").replace('"', '\\"')
+    return Markup(f'"{text}"')
 
 
 def _escaped(value: object) -> Markup:
