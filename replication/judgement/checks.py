@@ -21,7 +21,6 @@ def report(summary: Path, expected: Path) -> str:
     """What the check says of a summary. Raises RecalibError with what is outside of its band."""
     table = check(pd.read_csv(summary), pd.read_csv(expected))
     text: str = table.to_string(index=False, float_format="{:.4g}".format)
-    print(text)
     rows = [
         f"{row.learner}, {row.iterations} iterations, on the {row.robot}, {row.scenario}:"
         f" {row.error} is {row.value:.4g}, expected {row.low:.4g} to {row.high:.4g}"
@@ -30,6 +29,7 @@ def report(summary: Path, expected: Path) -> str:
     if rows:
         outside = f"{len(rows)} of {len(table)} final errors are outside of their bands"
         raise RecalibError("\n".join([outside, *rows]))
+    print(f"all {len(table)} final errors are inside their bands")
     return text + "\n"
 
 
