@@ -24,14 +24,12 @@ class Row(NamedTuple):
 
 
 class Worse(NamedTuple):
-    """Where the hybrid's error exceeds that of the best other peer."""
+    """Where the hybrid's error exceeds that of the best other peer, and by which factor."""
 
     scenario: str
     moves: int
     kind: str
-    hybrid: float
-    best: float
-    learner: str
+    ratio: float
 
 
 class Benchmark:
@@ -80,10 +78,10 @@ class Benchmark:
         for row in own.to_dict("records"):
             same = (others["scenario"] == row["scenario"]) & (others["moves"] == row["moves"])
             for error, kind in zip(ERRORS, KINDS, strict=True):
-                best = others[same].set_index("learner")[error]
-                if row[error] > max(WORSE * best.min(), NEGLIGIBLE):
+                best = others[same][error].min()
+                if row[error] > max(WORSE * best, NEGLIGIBLE):
                     place = row["scenario"].replace("_", " "), row["moves"], kind
-                    found.append(Worse(*place, row[error], best.min(), label_of(best.idxmin())))
+                    found.append(Worse(*place, row[error] / best))
         return found
 
 
