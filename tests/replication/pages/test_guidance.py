@@ -62,7 +62,10 @@ def test_moves_have_their_quantiles_if_these_differ(contents):
 
 def test_the_hybrid_is_compared_with_other_learners_of_today(contents):
     page = render("guidance.md", contents)
-    assert "other learner's in 1 comparisons, at most by a\nfactor of 1.2: in the scenario links" in page
+    assert (
+        "other learner's in 1 comparisons, at most by a\nfactor of 1.2: in the scenario links"
+        in page
+    )
     (row,) = contents.benchmark.worse
     assert row.moves == 8
     assert row.ratio == pytest.approx(1.2), "over geometry; improved is of 1996"
