@@ -1,6 +1,6 @@
 """Forward kinematics, Jacobians and gravity of one arm for many joint angles, by Pinocchio.
 
-Where a joint slides, its joint angle is a length [m], its torque a force [N].
+If a joint slides, its joint angle is a length [m], its torque a force [N].
 """
 
 from functools import cached_property

@@ -68,7 +68,7 @@ class Lens:
 
 
 def read_lens(path: str | PathLike[str]) -> Lens:
-    """The lens in the YAML at `path`. Coefficients that are zero at the end are no part of it.
+    """The lens in the YAML at `path`. Coefficients that are zero at the end are not part of it.
 
     Raises InvalidFile.
     """

@@ -36,7 +36,7 @@ class Spread(Frozen):
     """By how much a number differs from setup to setup: standard deviations of its logarithm.
 
     Attributes:
-        between: setups, with luck taken out, and its interval.
+        between: setups, without the variation between replicates, and its interval.
         luck: between measurements of the same setup, and its interval.
         setups: in which it was measured.
         unsettled: how many of its searches have not converged.
@@ -55,7 +55,7 @@ class Spread(Frozen):
 
 
 class Finding(Frozen):
-    """A claim of the paper, what was measured, and the verdict.
+    """A claim of the paper, its measurements, and the verdict.
 
     Attributes:
         id: of the claim.

@@ -48,7 +48,7 @@ _EARLIER = TypeAdapter(dict[str, Earlier])
 
 @dataclass(frozen=True)
 class Judged:
-    """A claim, and what was found about it.
+    """A claim and its finding.
 
     Attributes:
         statement: what the paper says.

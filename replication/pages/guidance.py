@@ -24,7 +24,7 @@ class Row(NamedTuple):
 
 
 class Worse(NamedTuple):
-    """Where the hybrid's error exceeds that of the best other peer, and by which factor."""
+    """A comparison in which the hybrid is worse than the best other peer, with the factor."""
 
     scenario: str
     moves: int
@@ -69,7 +69,7 @@ class Benchmark:
 
     @property
     def worse(self) -> list[Worse]:
-        """Where the hybrid is not as good as the best of today's other learners."""
+        """Comparisons in which another learner of today is better than the hybrid."""
         its = self.errors
         counted = its["moves"].isin([budget for budget in self.budgets if budget >= FIRST])
         others = its[counted & its["learner"].isin({*peers()} - {HYBRID})]

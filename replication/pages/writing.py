@@ -71,7 +71,7 @@ def _quoted(value: str) -> Markup:
 
 
 def _escaped(value: object) -> Markup:
-    """A value whose signs are no markup of Typst."""
+    """A value whose signs are not markup of Typst."""
     if isinstance(value, Markup):
         return value
     return Markup(MARKUP.sub(lambda sign: "\\" + "\\".join(sign[0]), str(value)))

@@ -1,4 +1,4 @@
-"""How fast are moves, in one process and beside a bare loop over Pinocchio?"""
+"""How fast are moves, in one process, compared with a bare loop over Pinocchio?"""
 
 from pathlib import Path
 from timeit import timeit

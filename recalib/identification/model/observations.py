@@ -31,11 +31,11 @@ class Observations:
         joints: (n, joints) rad, or m where a joint slides, that the controller reported.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of a target in the instrument's frame;
             None where a ball sat in sockets.
-        targets: (n,) the number of the target, or of the ball; 0 unless given. Where there are
+        targets: (n,) the number of the target, or of the ball; default: 0. If there are
             several instruments, that of the sight: see `Frames`.
         sockets: (n,) the number of the socket in which it sat; None where it was measured.
         distances: between sockets, where they are known.
-        times: (n,) s, which do not decrease; None where nobody wrote them down.
+        times: (n,) s, which do not decrease; None if none were recorded.
         optics: what poses are worth that cameras measured; None where all are worth the same.
     """
 

@@ -118,7 +118,7 @@ def calibrate_live(
         opening: makes the station.
         arm: the nominal one.
         table: CSV, new or begun by this function.
-        ask: called before each move; whether it may be made. All may unless given.
+        ask: called before each move, returns whether to make it; default: all are made.
         description: what the table does not say itself.
         on_progress: called with lines for people.
         on_row: called with the rows so far, and what calibrates by them.

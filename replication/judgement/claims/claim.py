@@ -116,7 +116,7 @@ FEWEST = 20  # setups: until then no verdict follows from them (docs/registratio
 
 
 def enough(values: Values) -> bool:
-    """Whether a verdict may follow: luck and heterogeneity can be told, and setups are enough."""
+    """Whether a verdict may follow: enough setups, and one of them measured twice."""
     counts = np.isfinite(values.table).sum(axis=1)
     return len(counts) >= FEWEST and bool(counts.max() > 1)
 
