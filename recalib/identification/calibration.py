@@ -94,9 +94,8 @@ class Calibration:
 
         Args:
             joints: (n, joints) rad, m.
-            shifted: whether one shift and turn of instrument and target is taken out, of all rows
-                together: how far away a camera is, no picture tells better than its board and lens
-                are known.
+            shifted: whether one shift and turn of instrument and target, common to all rows, is
+                removed: the range of a camera is only as accurate as its board and lens.
             targets: (n,) the numbers of the sights; default: the first.
         """
         model, estimate = self.model, self.estimate
@@ -150,7 +149,7 @@ class Calibration:
 
     @cached_property
     def frames(self) -> Frames:
-        """Where the instrument stands and where the targets sit."""
+        """The poses of the instrument and of the targets."""
         return self.model.found(self.estimate.parameters)
 
     def axes(self, targets: np.ndarray) -> np.ndarray:

@@ -92,7 +92,7 @@ class Arm:
     def forward(self, angles: ArrayLike) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m] at joint angles (n, joint) [rad].
 
-        Or one (4, 4) at those of one posture (joint,). Raises InvalidSetting, as the methods below:
+        Or one pose (4, 4) for one posture (joint,). Raises InvalidSetting, as the methods below:
         another shape.
         """
         postures, shape = self._postures(angles)
