@@ -1,5 +1,6 @@
 """The study of this call, checked before anything runs, and what all rules share."""
 
+import os
 import sys
 from pathlib import Path
 

@@ -64,7 +64,8 @@ rule pages:
         EVIDENCE_FILES,
         FINDINGS,
         "pyproject.toml",
-        templates=[str(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],
+        # relative: a project that was moved does not begin again
+        templates=[os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],
         figures=FIGURES,
     output:
         pages=PAGES,

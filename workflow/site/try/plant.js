@@ -50,7 +50,7 @@ function errors(achieved, desired) {
   ];
 }
 
-// Keeps the robot's intact arm; `near` are joint angles from which Newton's method starts.
+// Keeps the robot's intact arm; Newton's method starts from the joint angles `near`, or from home.
 class Controller {
   constructor({ placements, home, lower, upper, half_ranges }) {
     Object.assign(this, { home, lower, upper });
@@ -59,8 +59,8 @@ class Controller {
   }
 
   // Joint angles that the controller chooses for a command; null where it refuses it.
-  angles(command, near = this.home) {
-    return this.within(this.arm.inverse(this.workspace.toPose(command), near));
+  angles(command, near) {
+    return this.within(this.arm.inverse(this.workspace.toPose(command), near ?? this.home));
   }
 
   within(angles) {
@@ -96,7 +96,7 @@ class Plant {
 
   // Joint angles to send that take this very arm to a pose, if it is known.
   anglesFor(pose, near) {
-    const standing = this.arm.inverse(pose, this.standing(near));
+    const standing = this.arm.inverse(pose, this.standing(near ?? this.controller.home));
     return this.controller.within(standing?.map((angle, j) => angle - this.offsets[j]) ?? null);
   }
 }
