@@ -8,6 +8,8 @@ RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
 STUDY_FILE = $(firstword $(wildcard $(STUDY).yaml workflow/studies/$(STUDY).yaml))
 NO_SUCH = $(if $(filter replication,$(STUDY))$(STUDY_FILE),,$(error there is no $(STUDY).yaml; see docs/bend.md))
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES) $(addprefix --configfile ,$(STUDY_FILE))
+# a line for each file that is made, and errors
+BRIEFLY = --quiet rules reason host progress
 RECORDINGS = $(RESULTS)/recordings
 RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
@@ -24,7 +26,7 @@ ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 .PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults mutants peers witness check bench latency article archive reproduce docs pictures view web notebook tune design campaign ship lock clean
 
 all: setup ## the full replication
-	$(SNAKEMAKE)
+	$(SNAKEMAKE) $(BRIEFLY)
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' $(MAKEFILE_LIST) | tr '|' '\t' | expand -t 12
@@ -35,7 +37,7 @@ quick: study ## a small replication, in two minutes with its set-up: results/stu
 study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
 	$(NO_SUCH)
 	@.venv/bin/python -m replication.running.readable $(STUDY_FILE)
-	$(SNAKEMAKE) --quiet rules reason host
+	$(SNAKEMAKE) $(BRIEFLY)
 
 setup: .venv/installed ## the environment of the studies, from requirements.lock
 

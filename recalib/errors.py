@@ -42,7 +42,10 @@ class InvalidSetting(RecalibError):
 class BadMeasurement(RecalibError):
     """An invalid measurement.
 
-    Attributes: which one it is, what was measured, and what would be valid.
+    Attributes:
+        which: name of the measurement.
+        measured: its numbers.
+        valid: what was expected.
     """
 
     def __init__(self, which: str, measured: Iterable[float], valid: str):

@@ -21,7 +21,7 @@ class Plant:
         controller: the nominal controller, which knows of no damage.
         arms: a damaged one for each run, or a single one for all runs, which may be anything that
             moves, such as the twin of a real one.
-        disturbances: of the executed moves; none unless given.
+        disturbances: of the executed moves; default: none.
         generators: their randomness, one for each run.
 
     Attributes:

@@ -56,7 +56,7 @@ class Bounded:
         raise InvalidSetting(name, value, f"{self.quantity.name} {self.bounds}, in {unit}")
 
     def _read(self, value: object) -> float:
-        """The number in SI units that a value means; NaN where it means none."""
+        """The number in SI units that a value means; NaN if it means none."""
         if self.quantity is None:
             number = isinstance(value, int | float) and not isinstance(value, bool)
             return float(value) if number else math.nan  # type: ignore[arg-type]

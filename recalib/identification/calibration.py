@@ -32,7 +32,7 @@ class Calibration:
 
     Attributes:
         model: the error model.
-        estimate: what is known of its parameters.
+        estimate: of its parameters.
         pattern: from joint angles [rad] to residuals over the estimate's noise; None where these
             are noise.
     """
@@ -44,7 +44,7 @@ class Calibration:
     def forward(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
-        Where a frame was unknown, the arm's own base or tool is nominal.
+        If a frame was unknown, the arm's own base or tool is nominal.
 
         Args:
             joints: (n, joints) rad, m that the controller assumes.
@@ -67,7 +67,7 @@ class Calibration:
 
         Args:
             joints: (n, joints) rad, m that the controller assumes.
-            targets: (n,) the numbers of the sights; the first unless given.
+            targets: (n,) the numbers of the sights; default: the first.
 
         Raises InvalidSetting: another shape, NaN.
         """
@@ -94,10 +94,9 @@ class Calibration:
 
         Args:
             joints: (n, joints) rad, m.
-            shifted: whether one shift and turn of instrument and target is taken out, of all rows
-                together: how far away a camera is, no picture tells better than its board and lens
-                are known.
-            targets: (n,) the numbers of the sights; the first unless given.
+            shifted: whether one shift and turn of instrument and target, common to all rows, is
+                removed: the range of a camera is only as accurate as its board and lens.
+            targets: (n,) the numbers of the sights; default: the first.
         """
         model, estimate = self.model, self.estimate
         _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints), targets)
@@ -150,7 +149,7 @@ class Calibration:
 
     @cached_property
     def frames(self) -> Frames:
-        """Where the instrument stands and where the targets sit."""
+        """The poses of the instrument and of the targets."""
         return self.model.found(self.estimate.parameters)
 
     def axes(self, targets: np.ndarray) -> np.ndarray:
@@ -307,10 +306,10 @@ def choose(candidates: Sequence[Calibration]) -> int:
 def with_pattern(
     calibration: Calibration, observations: Observations, hyperparameters: np.ndarray | None = None
 ) -> Calibration:
-    """With a process of its residuals, if there are enough of them and they are no noise.
+    """With a process of its residuals, if there are enough of them and they are not noise.
 
     Args:
-        hyperparameters: of the process, which take long to find; the most probable unless given.
+        hyperparameters: of the process, which take long to find; default: the most probable.
     """
     estimate = calibration.estimate
     noise, good = estimate.noise, np.flatnonzero(estimate.weights > DOUBTFUL)

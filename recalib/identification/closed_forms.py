@@ -11,7 +11,7 @@ errors of the arm,
   any matrix, replaced by the nearest rotation; or, with z_k = 0, by aligning points;
 - a ball in socket s, c_s = t_i + R_i z_k: linear.
 
-Where one of X and Z_k is known, the other follows by aligning points and axes, or linearly.
+If one of X and Z_k is known, the other follows by aligning points and axes, or linearly.
 """
 
 from collections.abc import Iterator
@@ -39,9 +39,9 @@ def solutions(
 
     Args:
         tool: (n, 4, 4) m, nominal poses.
-        observations: what was measured there.
-        base: (4, 4) m in the frame of the instrument, where it is known.
-        target: (4, 4) m in the frame of the tool, where it is known, the same for all targets.
+        observations: the measurements there.
+        base: (4, 4) m in the frame of the instrument, if known.
+        target: (4, 4) m in the frame of the tool, if known, the same for all targets.
     """
     if observations.sockets is not None:
         yield _by_sockets(tool, observations, observations.sockets, target)

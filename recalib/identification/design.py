@@ -16,7 +16,7 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     shrink: what D-optimal designs maximise.
 
     Args:
-        calibration: what is known.
+        calibration: so far.
         joints: (n, joints) rad, m, each for one measurement of the first target.
     """
     return _gains(_spreads(_rows(calibration, joints), calibration.estimate.covariance))
@@ -25,7 +25,7 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
 def surprises(calibration: Calibration, observations: Observations) -> np.ndarray:
     """How unexpected measurements of the first target are (n,), of which none was learned from.
 
-    The mean square of what is measured beside its prediction, over the covariance of both (the
+    The mean square of the prediction errors, over the covariance of both (the
     normalised innovation of a Kalman filter): about 1 where model and noise are right.
     """
     rows = _rows(calibration, observations.joints, observations.optics)
@@ -60,7 +60,7 @@ def most_informative(
 
 
 def _rows(calibration: Calibration, joints: np.ndarray, optics: Optics | None = None) -> np.ndarray:
-    """Jacobians (n, 3 or 6, P) of what is measured, over its noise."""
+    """Jacobians (n, 3 or 6, P) of the measured quantities, over their noise."""
     model, estimate = calibration.model, calibration.estimate
     noise = np.repeat(estimate.noise, 3)
     _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints))

@@ -12,7 +12,7 @@ no weight. Estimated along with the parameters are
   evidence);
 - the variances v_j, from what the data say of each parameter and of their common scale (relevance
   determination): damage is sparse, most of what may be wrong with an arm is right, and a parameter
-  that explains nothing is held at nominal. Unknown frames are no damage: their variances are 1.
+  that explains nothing is held at nominal. Unknown frames are not damage: their variances are 1.
 """
 
 from dataclasses import dataclass
@@ -82,9 +82,9 @@ def identify(
     """The parameters of the model that explain the observations.
 
     Args:
-        start: an estimate to start from, for speed; the nominal arm unless given. It may be that
+        start: an estimate to start from, for speed; default: the nominal arm. It may be that
             of a model with the same frames, the same first terms and fewer or more of them.
-        weights: (n,) of the observations in the first step; all count unless given.
+        weights: (n,) of the observations in the first step; default: all count.
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """

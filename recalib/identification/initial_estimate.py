@@ -54,11 +54,11 @@ def initial_frames(
     """Initial estimates of the frames at both ends of the nominal arm.
 
     Args:
-        base: (4, 4) m in the frame of the instrument, where it is known.
-        target: (4, 4) m in the frame of the tool, where it is known, the same for all targets.
+        base: (4, 4) m in the frame of the instrument, if known.
+        target: (4, 4) m in the frame of the tool, if known, the same for all targets.
 
     Raises NoInitialEstimate: too few rows, postures too much alike, or nothing that explains them;
-    and BadMeasurement: no numbers, or matrices that are no poses.
+    and BadMeasurement: no numbers, or matrices that are not poses.
     """
     if len(observations) < fewest(observations):
         raise NoInitialEstimate(

@@ -15,7 +15,7 @@ CLEAR = 2.0  # standard errors: a parameter that is so far from zero is listed
 
 @dataclass(frozen=True)
 class Parameter:
-    """What is known of a parameter.
+    """An estimated parameter and its uncertainty.
 
     Attributes:
         name: in words, such as offset of elbow_joint.
@@ -41,7 +41,7 @@ def parameters_of(
     """All parameters, in the order of the model.
 
     Args:
-        targets, sockets, instruments: their names; their numbers unless given.
+        targets, sockets, instruments: their names; default: their numbers.
     """
     errors = np.sqrt(np.diag(estimate.covariance))
     return [

@@ -1,6 +1,6 @@
 """Cross-validated errors of calibrations, and which calibration to use.
 
-The residuals of the fit are no measure: a Gaussian process interpolates.
+The residuals of the fit do not show it: a Gaussian process interpolates.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -46,7 +46,7 @@ class Validation:
     """Errors on rows that were not learned from.
 
     Attributes:
-        held_out: by way of folding and by what is done. Where frames are unknown, those of the
+        held_out: by way of folding and by what is done. If frames are unknown, those of the
             nominal arm are identified, too, and nothing else is.
         postures: in which all rows are.
         counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
@@ -113,7 +113,7 @@ def validate(
 
     Args:
         frames: at both ends; see `initial_frames` for those that are unknown.
-        on_progress: called with what is being done.
+        on_progress: called with the current step.
 
     Raises BadMeasurement and Untrustworthy.
     """

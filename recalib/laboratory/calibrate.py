@@ -74,7 +74,7 @@ def calibrate(
         times: (n,) s when rows were measured, in this order.
         instrument: (4, 4) m in the arm's base, if known; otherwise identified.
         target: (4, 4) m in the tool link's frame, if known; otherwise identified.
-        on_progress: called with what is being done, in a line each.
+        on_progress: called with the current step, in a line each.
 
     Raises InvalidSetting: arrays of other shapes; and as `calibrate_arm`.
     """
@@ -137,7 +137,7 @@ def calibrate_arm(
         table: see docs/own_arm.md.
         description: what the table cannot express.
         tool, base: link names; needed only if there are several ends.
-        on_progress: called with what is being done, in a line each.
+        on_progress: called with the current step, in a line each.
 
     Raises RecalibError: an arm, a table or a description that cannot be used; nominal positions of
     another arm; frames that are not identifiable, or contradict the description; a fit that cannot

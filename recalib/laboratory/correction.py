@@ -131,7 +131,7 @@ class Correction:
         """The joint coordinates (joints,) [rad, m] to send, fast enough for a controller's loop.
 
         Args:
-            pose: (4, 4), or a position (3,) [m] where the rotation is free.
+            pose: (4, 4), or a position (3,) [m] if the rotation is free.
             near: (joints,) rad, m, such as the last command: the solution stays on its branch.
             target, frame: as of `correct`.
 

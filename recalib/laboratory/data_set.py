@@ -36,7 +36,7 @@ class DataSet:
     """Observations, and the names that go with their numbers.
 
     Attributes:
-        observations: what was measured.
+        observations: the measurements.
         targets, sockets, instruments: their names, in the order of their numbers.
         known: frames that the user gives.
         sights: (s, 2) the numbers of the instrument and of the target of each sight; None if there

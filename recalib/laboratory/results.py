@@ -1,4 +1,4 @@
-"""A calibrated arm, what was measured of it, and what follows from both."""
+"""A calibrated arm, its measurements, and what follows from both."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -34,7 +34,7 @@ class Results:
 
     Attributes:
         urdf: the file of the nominal arm; None if there is none.
-        data: what was measured.
+        data: the measurements.
         frames: from which the identification started.
         validation: errors on rows that were not learned from, and the choice by them.
         scales: of boards, of distances between sockets or of all positions, by links as long as the

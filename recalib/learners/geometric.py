@@ -91,7 +91,7 @@ def angles_for(
 ) -> np.ndarray:
     """Joint coordinates (run, n, joints) [rad, m] to send for the arm to reach poses.
 
-    By Newton's method, with the Jacobian of each run's arm alone. Where nothing reaches the pose,
+    By Newton's method, with the Jacobian of each run's arm alone. If nothing reaches the pose,
     the best angles that were met.
 
     Args:

@@ -45,8 +45,8 @@ class HierarchicalLearner:
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.
 
-        Nothing is learned from a refused move. Raises BadMeasurement where what is achieved is no
-        number, far off, or the same whatever is sent.
+        Nothing is learned from a refused move. Raises BadMeasurement if the achieved pose
+        is not a number, far off, or the same for all commands.
         """
         maps, desired = self.maps, np.ascontiguousarray(desired)
         if maps.waiting == kernels.WAITING:

@@ -44,7 +44,7 @@ def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
     """The learner that `save` wrote, for the same robot.
 
     Args:
-        run: the one to load; all of them unless given.
+        run: the one to load; default: all of them.
 
     Raises InvalidFile (not whole, or no such file), OtherRobot, and InvalidSetting (no such run).
     """

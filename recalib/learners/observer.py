@@ -25,8 +25,8 @@ class Observer(ABC):
             achieved: (run, move, 6) what came of it.
             executed: (run, move) whether it was carried out.
 
-        Raises BadMeasurement where what came of it is no number, far off, or the same whatever is
-        sent; then nothing is learned.
+        Raises BadMeasurement if the achieved pose is not a number, far off, or the same for all
+        commands; then nothing is learned.
         """
         self._last = check_moves(commands, achieved, executed, self._last)
         self._update(commands, achieved, executed)

@@ -65,8 +65,8 @@ class RadialLearner:
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """Make one move and update all units; see `Learner.learn`.
 
-        Nothing is learned from a refused move. Raises BadMeasurement where what is achieved is no
-        number, or far off.
+        Nothing is learned from a refused move. Raises BadMeasurement if the achieved pose
+        is not a number, or far off.
         """
         command = self.command(desired[:, None])
         outcome = execute(command)

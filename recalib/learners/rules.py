@@ -36,15 +36,15 @@ class Rules:
             and (5).
         equal_visits: widths fall by the schedule of section 6, or by Ritter's exponential one.
         supernet, subnet: cells along each position and each orientation coordinate.
-        centres: where the cells are: in the middle of equal "boxes", or from face to face ("faces")
-            of the workspace (section 3).
+        centres: of the cells: in the middle of equal "boxes", or from face to face ("faces") of the
+            workspace (section 3).
         metric: six factors that turn workspace coordinates into the units in which the norm in (3)
             and (8) is taken; by their ratios alone. All 1: half-ranges of the workspace.
             The half-ranges in m and rad: metres with radians.
         width_units: six factors that turn workspace coordinates into the units of widths, in which
             distances between centres are measured. All 1: half-ranges of the workspace.
-        dimensions: n in (10), for equal visits: 3, those of each net, or 6, those of both.
-        spread: what equal visits are spread over evenly: "widths", or their "logarithms".
+        dimensions: n in (10), for equal visits: 3 (of each net) or 6 (of both together).
+        spread: visits are equal for equal steps of "widths", or of their "logarithms".
         rate: how the learning rate falls, "linear" (section 7) or "exponential" (Ritter); None:
             linear with equal visits, exponential without.
         initial: None: theta starts as the identity; a seed: where values of theta are propagated,

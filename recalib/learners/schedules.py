@@ -56,11 +56,11 @@ class Schedule:
 
     Args:
         initial_width: of all neighbourhoods (section 7), in workspace coordinates: the workspace
-            is 2 wide. Or that of each.
-        final_widths: for each map (`Rules.maps`), those of g_k and of g_kl.
+            is 2 wide. Or a width for each.
+        final_widths: for each map (`Rules.maps`), the final widths of g_k and of g_kl.
         initial_rate, final_rate: the learning rate c' of (4), (5), (7) and (9).
 
-    Raises InvalidSetting where a width is not above 0 or a rate not in (0, 1].
+    Raises InvalidSetting if a width is not positive or a rate is not in (0, 1].
     """
 
     initial_width: Width | Widths

@@ -16,8 +16,8 @@ class ExternalRobot:
 
     Args:
         workspace: in which it works.
-        move: commands a pose (4, 4) in the base frame [m] and returns the measured one, likewise,
-            or None where the robot refuses.
+        move: commands a pose (4, 4) in the base frame [m] and returns the measured pose (4, 4), or
+            None if the robot refuses.
 
     Attributes:
         moves: how many moves were commanded in each run.
@@ -42,8 +42,8 @@ class ExternalRobot:
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Measured poses (run, move, 4, 4) and whether each was executed (run, move), not counted.
 
-        A refused move counts as the centre of the workspace. Raises BadMeasurement where what is
-        measured is no pose, or grossly off.
+        A refused move counts as the centre of the workspace. Raises BadMeasurement if a measurement
+        is not a pose, or is grossly off.
         """
         poses = self.workspace.to_poses(commands)
         executed = np.ones(commands.shape[:-1], dtype=bool)

@@ -92,7 +92,7 @@ class Commandable(Protocol):
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Achieved poses (run, move, 4, 4) [m] and whether each was executed (run, move).
 
-        As `execute`, to judge a learner by: these moves are not counted and, where the robot is
+        As `execute`, but to evaluate a learner: these moves are not counted and, if the robot is
         simulated, free of disturbances.
         """
 

@@ -75,7 +75,7 @@ def measure(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Position [m] and orientation errors [rad], each (run, summary), at poses (run, pose, 6).
 
-    Measuring is no learning: its moves are not counted.
+    Measuring teaches nothing: its moves are not counted.
 
     Args:
         error: of a pose; see `recalib.nominal.poses.pose_errors`.

@@ -30,8 +30,8 @@ def load_arm(urdf: str | PathLike[str], tool: str | None = None, base: str | Non
 
     Args:
         urdf: see `find_urdf`.
-        tool: link whose frame is the pose; the only end of the arm unless given.
-        base: link in whose frame poses are; the root unless given.
+        tool: link whose frame is the pose; default: the only end of the arm.
+        base: link in whose frame poses are; default: the root.
 
     Raises UnknownName (URDF, link), InvalidFile (no such file), InvalidSetting (several ends, and
     no tool given), and UnsuitableRobot: no URDF, or no such arm.

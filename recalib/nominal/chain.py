@@ -1,6 +1,6 @@
 """Serial arms as arrays, for many postures at once.
 
-Where a joint slides, its joint angle is a length [m]. Pinocchio says where joints and tool are
+If a joint slides, its joint angle is a length [m]. Pinocchio says where joints and tool are
 placed, and stays the reference.
 """
 

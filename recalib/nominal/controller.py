@@ -40,7 +40,7 @@ class Solution:
 
     Attributes:
         angles: (n, joint) rad.
-        residuals: (n,) what is left, the largest of its numbers in m and rad.
+        residuals: (n,) the largest remaining component, in m or rad.
         within_limits: (n,) whether the arm's joints can turn so far.
     """
 

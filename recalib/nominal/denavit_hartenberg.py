@@ -48,8 +48,8 @@ class Row:
 def arm_of_table(rows: Sequence[Row], convention: str = "standard") -> Arm:
     """The arm of a table, from its base to its tool: the frame of the last row.
 
-    It has no masses, and limits at infinity. Links are called base, after the joints that move
-    them, and tool.
+    Masses are missing and limits infinite. The first link is called base, the last one tool, the
+    others after the joints that move them.
 
     Raises UnknownName (a convention), and InvalidSetting (no rows or too many, joints of one name,
     a parameter that is not a number).

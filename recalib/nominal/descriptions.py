@@ -27,7 +27,7 @@ def find_urdf(urdf: str | PathLike[str]) -> Path:
         urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or that of
             a description in robot_descriptions.py, such as panda_description, if it is installed.
 
-    Raises UnknownName, or InvalidFile where that is no name but a path.
+    Raises UnknownName, or InvalidFile if it is a path and not a name.
     """
     package = package_of(urdf)
     if package is None:

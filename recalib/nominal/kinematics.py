@@ -1,6 +1,6 @@
 """Forward kinematics, Jacobians and gravity of one arm for many joint angles, by Pinocchio.
 
-Where a joint slides, its joint angle is a length [m], its torque a force [N].
+If a joint slides, its joint angle is a length [m], its torque a force [N].
 """
 
 from functools import cached_property
@@ -92,7 +92,7 @@ class Arm:
     def forward(self, angles: ArrayLike) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m] at joint angles (n, joint) [rad].
 
-        Or one (4, 4) at those of one posture (joint,). Raises InvalidSetting, as the methods below:
+        Or one pose (4, 4) for one posture (joint,). Raises InvalidSetting, as the methods below:
         another shape.
         """
         postures, shape = self._postures(angles)

@@ -49,7 +49,7 @@ class Robot:
 
 
 def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
-    """A joint coordinate [rad], or [m] where the joint slides, for people."""
+    """A joint coordinate [rad], or [m] if the joint slides, for people."""
     return (
         f"{1e3 * coordinate:{digits}} mm" if slides else f"{math.degrees(coordinate):{digits}} deg"
     )
@@ -89,7 +89,7 @@ def load_robot(
         position_range: (3,) m, full sizes of the workspace along the base's axes.
         orientation_range: (3,) rad, its full ranges of roll, pitch and yaw, or of rotation vectors.
         limits: lowest and highest angle [rad] (or length [m]) by joint, in place of the URDF's.
-        name: what people call it; the file's name unless given.
+        name: display name; default: the file's name.
         coordinates: of orientations; see `Workspace`.
         beyond: m, by which a rigid tool goes on outwards from the tool link, along the last joint's
             axis.

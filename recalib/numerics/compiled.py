@@ -20,7 +20,7 @@ Result = TypeVar("Result")
 def compiled(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
     """The function, compiled when it is first called, and kept in a file for the next process.
 
-    Where no folder can be written to it is not kept. A division by zero gives infinity, as in
+    If no folder can be written to it is not kept. A division by zero gives infinity, as in
     NumPy.
     """
     try:

@@ -35,7 +35,7 @@ class Process:
     Args:
         inputs: (n, d), each of the order of one.
         outputs: (n, k), in any unit.
-        hyperparameters: (d + 3,); those of the largest marginal likelihood unless given.
+        hyperparameters: (d + 3,); default: those of the largest marginal likelihood.
 
     Attributes:
         hyperparameters: (d + 3,) as used.

@@ -90,7 +90,7 @@ class Guarded:
             )
 
     def measure(self) -> tuple[np.ndarray, Mapping[str, float | str] | None]:
-        """Where it stands (joints,) [rad, m], and what is measured there, if the target is seen."""
+        """Joint angles (joints,) [rad, m] and the measurement there, if the target is seen."""
         angles = self._standing()
         cells = self._ask("measure", lambda station: station.measure())
         if (moved := self._moved([angles, self.angles()])) > STILL:
@@ -182,7 +182,7 @@ class Guarded:
         )
 
     def _moved(self, readings: Sequence[np.ndarray]) -> float:
-        """How far [m] a point beside the tool moves between readings (joints,), at most."""
+        """How far [m] a point near the tool moves between readings (joints,), at most."""
         poses = self._arm.forward(np.array(readings))
         gaps = poses[:, None, :3, 3] - poses[:, :3, 3]
         turns = np.linalg.norm(poses[:, None, :3, :3] - poses[:, :3, :3], axis=(2, 3)) / np.sqrt(2)

@@ -16,8 +16,8 @@ class StationFailed(RecalibError):
 class Station(Protocol):
     """An arm with its controller and a measuring instrument.
 
-    All but `stop` is called from one thread, which also makes the station. If it has a method
-    `close`, that is called at the end.
+    One thread makes the station and calls all methods; `stop` may be called from any thread. An
+    optional method `close` is called at the end.
     """
 
     @property
@@ -34,7 +34,7 @@ class Station(Protocol):
         """Move to joint angles (joints,) [rad, m] and return when the arm stands still.
 
         Args:
-            speed: of the fastest joint, as a part of what the joint allows, in (0, 1].
+            speed: of the fastest joint, as a fraction of its limit, in (0, 1].
 
         Raises StationFailed: it did not get there, or touched something.
         """

@@ -67,7 +67,7 @@ class BoardInPictures:
         return self._sightings[path]
 
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
-        """Poses (n, 4, 4) [m], and what is known of them, with the lens to be found.
+        """Poses (n, 4, 4) [m], and their information, with the lens to be found.
 
         Raises InvalidFile: the board is not in a picture, or its size is not that of the lens.
         """
@@ -97,7 +97,7 @@ class PicturesOfABoard:
 
     Args:
         station: whose `measure` returns `picture`, the path of a file.
-        pictures: what searches it. Where the camera is on the hand, its pose in the board is what
+        pictures: what searches it. If the camera is on the hand, its pose in the board is what
             is measured.
     """
 

@@ -20,8 +20,8 @@ class ProgramStation:
 
     Requests are `{"do": "describe"}`, `{"do": "move", "angles": [...], "speed": 0.2}`,
     `{"do": "angles"}` and `{"do": "measure"}`; docs/live.md has the answers. `{"do": "stop"}` comes
-    at any time, also during a move, and has no answer. When its input ends, nobody watches any
-    more: the program has to stop the arm, too. What it writes to stderr goes to ours.
+    at any time, even during a move, without an answer. The program must stop the arm when its
+    input ends. Its stderr is passed on.
 
     Args:
         command: the program and its arguments.

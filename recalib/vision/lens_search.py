@@ -1,6 +1,6 @@
 """The lens by pictures of a board anywhere: its model, chosen by evidence, and its parameters.
 
-Poses of the board are no unknowns of the search: for each lens, each has its best pose. So the
+Poses of the board are not unknowns of the search: for each lens, each has its best pose. So the
 normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and what
 they leave says how far the search is from its end, in standard deviations.
 """
@@ -177,7 +177,7 @@ def _squares(lens: Lens, views: Sequence[View], starts: Sequence[np.ndarray | No
 
 
 def moved_lens(lens: Lens, step: np.ndarray) -> Lens | None:
-    """The lens beside another by a step of its parameters (k,); None if there is none."""
+    """The lens that differs by a step of its parameters (k,); None if there is none."""
     fx, fy, cx, cy, *distortion = step
     matrix = lens.matrix + np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 0]])
     if min(matrix[0, 0], matrix[1, 1]) <= 0:

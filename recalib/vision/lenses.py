@@ -71,7 +71,7 @@ class Lens:
 
 
 def read_lens(path: str | PathLike[str]) -> Lens:
-    """The lens in the YAML or JSON at `path`. Coefficients that are zero at its end are left out.
+    """The lens in the YAML or JSON at `path`, without coefficients that are zero at the end.
 
     Raises InvalidFile.
     """

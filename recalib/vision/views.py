@@ -166,7 +166,7 @@ def predicted_views(
 
 
 def optics_of(lens: Lens, sightings: Sequence[Sighting]) -> tuple[np.ndarray, Optics]:
-    """Measured poses (n, 4, 4) [m] by a lens, and what is known of them."""
+    """Measured poses (n, 4, 4) [m] by a lens, and their information."""
     poses, *parts, squares, free = map(np.array, zip(*sightings, strict=True))
     spread, slopes, information, gradient, pixels = parts
     kinds = np.concatenate([np.arange(len(BOARD)), optics_kinds(lens)])[: slopes.shape[-1]]

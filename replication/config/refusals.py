@@ -31,7 +31,7 @@ MISSING = " is missing: "
 def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
     """What is wrong with the `whole` configuration: a mistake for each key.
 
-    A misspelt key is no missing one, too.
+    A misspelt key does not count as missing.
     """
     found, meant = {}, set()
     errors = error.errors(include_url=False)

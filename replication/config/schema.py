@@ -49,7 +49,7 @@ def find(location: Sequence[str | int]) -> tuple[KeyPath, JsonSchemaValue]:
 
 
 def _at(schema: JsonSchemaValue, part: str | int) -> JsonSchemaValue:
-    """The schema of a key or an index; {} where there is none."""
+    """The schema of a key or an index; {} if there is none."""
     if isinstance(part, int):
         fixed = schema.get("prefixItems")
         return fixed[part] if fixed else schema.get("items", {})

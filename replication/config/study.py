@@ -206,7 +206,7 @@ class PublishedReal(Part):
 
 
 class Real(Part):
-    """A real arm, whose recordings are no part of the project."""
+    """A real arm, whose recordings are not part of the project."""
 
     robot: Name
     """The nominal robot."""

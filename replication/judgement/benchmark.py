@@ -53,7 +53,7 @@ def reached(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
 def moves_to_reach(history: pd.DataFrame, errors: Sequence[str], threshold: float) -> np.ndarray:
     """Moves (seed,) of the first measurement with all of these errors within the threshold.
 
-    Infinity where there is none.
+    Infinity if there is none.
     """
     reached = (history[list(errors)] <= threshold).all(axis=1)
     within = history[reached].groupby("seed")["moves"].min()

@@ -18,10 +18,9 @@ NEGLIGIBLE = {"position_error_cm": 1e-3, "orientation_error_deg": 1e-3}
 
 
 def report(summary: Path, expected: Path) -> str:
-    """What the check says of a summary. Raises RecalibError with what is outside of its band."""
+    """What the check says of a summary. Raises RecalibError with the errors outside their bands."""
     table = check(pd.read_csv(summary), pd.read_csv(expected))
     text: str = table.to_string(index=False, float_format="{:.4g}".format)
-    print(text)
     rows = [
         f"{row.learner}, {row.iterations} iterations, on the {row.robot}, {row.scenario}:"
         f" {row.error} is {row.value:.4g}, expected {row.low:.4g} to {row.high:.4g}"
@@ -30,6 +29,7 @@ def report(summary: Path, expected: Path) -> str:
     if rows:
         outside = f"{len(rows)} of {len(table)} final errors are outside of their bands"
         raise RecalibError("\n".join([outside, *rows]))
+    print(f"all {len(table)} final errors are inside their bands")
     return text + "\n"
 
 
@@ -53,7 +53,7 @@ def expect(summary: pd.DataFrame) -> pd.DataFrame:
 
 
 def check(summary: pd.DataFrame, expected: pd.DataFrame) -> pd.DataFrame:
-    """Every final error beside its band, and whether it is `ok`: not if either is missing."""
+    """Every final error with its band, and whether it is `ok`: not if either is missing."""
     final = summary.melt(KEYS, [f"final_{error}" for error in ERRORS], "error", "value")
     final["error"] = final["error"].str.removeprefix("final_")
     table = expected.merge(final, "outer", [*KEYS, "error"])

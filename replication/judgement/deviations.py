@@ -1,4 +1,4 @@
-"""What changed after a result had been seen. Each change of what is registered has an entry.
+"""What changed after a result had been seen. Each change of the registration has an entry.
 
 `python -m replication.judgement.deviations` prints the digests that a new entry has to name.
 """
@@ -35,14 +35,14 @@ class Change(Frozen):
 
 
 class Deviation(Change):
-    """A change of what is registered for the campaign in force.
+    """A change of the registration of the campaign in force.
 
     Attributes:
-        kind: of what was changed.
+        kind: of the change.
         before, after: what was registered, and what counts now.
         why: it was changed.
         seen: the results that were known.
-        digests: of what was changed, by its name, as it is since then, or `REMOVED`.
+        digests: of the changed parts, by name, since then, or `REMOVED`.
     """
 
     kind: Literal["criterion", "choice", "design", "code"]

@@ -17,7 +17,7 @@ class Number(Frozen):
 
     Attributes:
         name: what it is.
-        system: of which algorithm.
+        system: of which algorithm; empty if the name says it.
         value: of the number; None if only a bound is known.
         interval: 95 % of the mean over setups, or of runs.
         predictive_interval: in which one more study in another setup would find its number.
@@ -36,7 +36,7 @@ class Spread(Frozen):
     """By how much a number differs from setup to setup: standard deviations of its logarithm.
 
     Attributes:
-        between: setups, with luck taken out, and its interval.
+        between: setups, without the variation between replicates, and its interval.
         luck: between measurements of the same setup, and its interval.
         setups: in which it was measured.
         unsettled: how many of its searches have not converged.
@@ -55,7 +55,7 @@ class Spread(Frozen):
 
 
 class Finding(Frozen):
-    """A claim of the paper, what was measured, and the verdict.
+    """A claim of the paper, its measurements, and the verdict.
 
     Attributes:
         id: of the claim.
@@ -68,7 +68,6 @@ class Finding(Frozen):
         spread: over the setups, if they decide.
         verdict: on the claim.
         note: what else there is to say.
-        exploratory: whether the criterion changed after a result had been seen.
     """
 
     id: str
@@ -81,7 +80,6 @@ class Finding(Frozen):
     spread: Spread | None
     verdict: Verdict
     note: str
-    exploratory: bool = False
 
 
 _FINDINGS = TypeAdapter(tuple[Finding, ...])

@@ -46,7 +46,7 @@ def _measured(history: pd.DataFrame) -> dict[str, float]:
 def cells_of_mean(name: str, values: np.ndarray) -> dict[str, float]:
     """The mean of errors (seed,), and its 95 % interval: cells NAME, NAME_low and NAME_high.
 
-    The interval is Student's for the logarithm of the mean, so that it stays above zero; NaN where
+    The interval is Student's for the logarithm of the mean, so that it stays above zero; NaN if
     there is a single seed.
     """
     count, mean = len(values), values.mean()

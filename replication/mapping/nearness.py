@@ -15,7 +15,7 @@ DRAWS = 10
 
 
 def nearness(resolved: Resolved, poses: int, seed: int) -> pd.DataFrame:
-    """The coupling in the workspace and in a larger one, beside how near a singularity is.
+    """The coupling in the workspace and in a larger one, with the distance from singularities.
 
     Args:
         poses: random ones in each draw and size.

@@ -10,7 +10,7 @@ STEP = 1e-4  # of the central differences, in workspace coordinates: 25 um
 
 
 def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> np.ndarray:
-    """The commands (n, 6) that take a damaged arm to the desired poses (n, 6); NaN where none does.
+    """The commands (n, 6) that take a damaged arm to the desired poses (n, 6); NaN if none does.
 
     The arm must be without deflections, and not redundant: a pose determines no joint angles then.
     """

@@ -1,4 +1,4 @@
-"""The expected learning of a cell in one iteration (section 6): Monte Carlo beside formula (10)."""
+"""Expected learning of a cell in one iteration (section 6): Monte Carlo against equation (10)."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""Choices of config.yaml, each with the reason that stands in a comment beside it."""
+"""Choices of config.yaml, each with the reason that is in a comment next to it."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path

@@ -18,7 +18,7 @@ from replication.config.shipped import SECOND, root_of
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.judgement.claims import claims
-from replication.judgement.claims.claim import FEWEST, Claim, OfSetups, Statement
+from replication.judgement.claims.claim import FEWEST, Claim, OfSetups, Statement, TooFewSetups
 from replication.judgement.contrasts import Remaining
 from replication.judgement.deviations import Deviations
 from replication.judgement.evidence import Evidence, NotMeasured
@@ -27,6 +27,7 @@ from replication.judgement.verdicts import Verdict
 from replication.pages.choices import Choice, alternatives, read_choices
 from replication.pages.formats import estimate, interval, percent, short
 from replication.pages.guidance import Benchmark
+from replication.pages.imprint import Imprint
 from replication.plots.figures import Figure
 from replication.training.competitors import label_of
 from replication.training.measured import ERRORS, KINDS, UNITS
@@ -47,13 +48,14 @@ _EARLIER = TypeAdapter(dict[str, Earlier])
 
 @dataclass(frozen=True)
 class Judged:
-    """A claim, and what was found about it.
+    """A claim and its finding.
 
     Attributes:
         statement: what the paper says.
         finding: None if it was not measured.
-        needs: then, what would measure it.
+        needs: then, what would measure it, unless it is the campaign.
         earlier: then, what the second campaign found, if it judged the claim.
+        changed: whether its criterion changed after a result had been seen.
         shares: names and systems of those of its numbers that are shares of an error.
     """
 
@@ -61,6 +63,7 @@ class Judged:
     finding: Finding | None
     needs: str
     earlier: Earlier | None
+    changed: bool
     shares: frozenset[tuple[str, str]]
 
     @property
@@ -69,6 +72,11 @@ class Judged:
         if self.finding:
             return str(self.finding.verdict)
         return f"{self.earlier.verdict} †" if self.earlier else NOT_MEASURED
+
+    @property
+    def exploratory(self) -> bool:
+        """Whether a result preceded the criterion: all but those of the campaign did."""
+        return self.changed or (self.finding is not None and self.finding.spread is None)
 
     @property
     def slug(self) -> str:
@@ -95,7 +103,7 @@ class Judged:
     def name(self, number: Number, before: Number | None = None) -> str:
         """What a number is, and of which algorithm if it is another one than that before."""
         name = _named(number.name)
-        if before and before.system == number.system:
+        if not number.system or (before and before.system == number.system):
             return name
         return f"{name} ({SYSTEMS.get(number.system, number.system)})"
 
@@ -143,7 +151,11 @@ class Contents:
         shares = frozenset(key for key, its in numbers.items() if isinstance(its, Remaining))
         needs = "" if finding else self._needs(claim)
         earlier = None if finding else self._earlier.get(claim.statement.id)
-        return Judged(claim.statement, finding, needs, earlier, shares)
+        changed = any(
+            change.kind == "criterion" and claim.statement.id in change.digests
+            for change in self.deviations.deviations
+        )
+        return Judged(claim.statement, finding, needs, earlier, changed, shares)
 
     @cached_property
     def _earlier(self) -> dict[str, Earlier]:
@@ -153,10 +165,10 @@ class Contents:
         return _EARLIER.validate_python(yaml.safe_load((self.project / SECOND).read_bytes()))
 
     def _needs(self, claim: Claim) -> str:
-        if isinstance(claim, OfSetups):
-            return f"the campaign, in at least {FEWEST} setups"
         try:
             claim.judge(self.evidence)
+        except TooFewSetups:
+            return ""
         except NotMeasured as error:
             return f"`{error}`"
         return "a run of the rule `claims`"
@@ -243,6 +255,11 @@ class Contents:
     def deviations(self) -> Deviations:
         """What changed after a result had been seen."""
         return Deviations.read(self.project)
+
+    @cached_property
+    def imprint(self) -> Imprint:
+        """Authors and address of the project."""
+        return Imprint.read(self.project)
 
     @cached_property
     def benchmark(self) -> Benchmark:

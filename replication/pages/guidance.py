@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from replication.pages.formats import short
-from replication.training.competitors import label_of, needs_of, peers
+from replication.training.competitors import label_of, peers
 from replication.training.measured import BOTH, ERRORS, KINDS
 
 HYBRID = "hybrid"
@@ -24,14 +24,12 @@ class Row(NamedTuple):
 
 
 class Worse(NamedTuple):
-    """Where the hybrid's error exceeds that of the best other peer."""
+    """A comparison in which the hybrid is worse than the best other peer, with the factor."""
 
     scenario: str
     moves: int
     kind: str
-    hybrid: float
-    best: float
-    learner: str
+    ratio: float
 
 
 class Benchmark:
@@ -56,7 +54,6 @@ class Benchmark:
         self._reached = reached[both].set_index(["scenario", "learner"])
         self.learners = list(errors["learner"].unique())
         self.labels = [label_of(name) for name in self.learners]
-        self.needs = {label_of(name): needs_of(name) for name in self.learners}
         self.seeds = int(errors["seeds"].max())
 
     @property
@@ -72,7 +69,7 @@ class Benchmark:
 
     @property
     def worse(self) -> list[Worse]:
-        """Where the hybrid is not as good as the best of today's other learners."""
+        """Comparisons in which another learner of today is better than the hybrid."""
         its = self.errors
         counted = its["moves"].isin([budget for budget in self.budgets if budget >= FIRST])
         others = its[counted & its["learner"].isin({*peers()} - {HYBRID})]
@@ -81,10 +78,10 @@ class Benchmark:
         for row in own.to_dict("records"):
             same = (others["scenario"] == row["scenario"]) & (others["moves"] == row["moves"])
             for error, kind in zip(ERRORS, KINDS, strict=True):
-                best = others[same].set_index("learner")[error]
-                if row[error] > max(WORSE * best.min(), NEGLIGIBLE):
+                best = others[same][error].min()
+                if row[error] > max(WORSE * best, NEGLIGIBLE):
                     place = row["scenario"].replace("_", " "), row["moves"], kind
-                    found.append(Worse(*place, row[error], best.min(), label_of(best.idxmin())))
+                    found.append(Worse(*place, row[error] / best))
         return found
 
 

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
 
 from recalib.files.storage import whole
 from replication.config.shipped import SHIPPED
@@ -46,20 +47,31 @@ def write(
 
 def render(page: str, contents: Contents) -> str:
     """The text of a page."""
+    typeset = page.endswith(".typ")
     environment = Environment(
         loader=FileSystemLoader(contents.project / TEMPLATES),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        finalize=_escaped if page.endswith(".typ") else None,
+        autoescape=typeset,  # a macro's text is then Markup, which stays as it is
+        finalize=_escaped if typeset else None,
     )
+    environment.filters["quoted"] = _quoted
     environment.globals |= {name: its for name, its in vars(formats).items() if callable(its)}
     environment.globals["Figure"] = Figure
     environment.globals |= {"on_real_arm": guidance.on_real_arm, "ends": guidance.ends_on_twin}
     return environment.get_template(f"{page}.j2").render(results=contents, study=contents.study)
 
 
-def _escaped(value: object) -> object:
-    """A value whose signs are no markup of Typst."""
-    return MARKUP.sub(lambda sign: "\\" + "\\".join(sign[0]), str(value))
+def _quoted(value: str) -> Markup:
+    """A string of Typst's code."""
+    text = value.replace("\\", "\\\\").replace('"', '\\"')
+    return Markup(f'"{text}"')
+
+
+def _escaped(value: object) -> Markup:
+    """A value whose signs are not markup of Typst."""
+    if isinstance(value, Markup):
+        return value
+    return Markup(MARKUP.sub(lambda sign: "\\" + "\\".join(sign[0]), str(value)))

@@ -1,4 +1,4 @@
-"""Figures of what one should use today: in simulation, and on a real arm."""
+"""Figures of methods for today: in simulation, and on a real arm."""
 
 from textwrap import fill
 

@@ -34,7 +34,7 @@ LABELS: Mapping[str, str] = {  # of the claims' numbers, by claim
     "cooperation": "both: increments / values",
     "schedule": "equal visits / exponential",
     "local-units": "radial units: increments / values",
-    "ritter-slow": "Ritter, as many cells",
+    "ritter-slow": "Ritter, equal cells",
     "figure-1": "improved",
     "rough-search": "improved, rough search",
 }
@@ -86,7 +86,7 @@ def contrasts(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(
         2, 1, figsize=(WIDTH, ROW * sum(counts) + 0.9), height_ratios=counts
     )
-    labels = "ratio of errors", "larger error that remains, share"
+    labels = "error ratio", "larger remaining share"
     for axes, its, label in zip(panels, parts, labels, strict=True):
         _draw(axes, its)
         axes.set_xlabel(label)

@@ -44,9 +44,9 @@ class Figure(Enum):
 APART = Figure.BENCHMARK, Figure.REAL_ARM  # of targets of their own
 
 TITLES = {
-    Figure.FIGURE_1: "Both errors fall while the learner learns.",
-    Figure.STEPS: "Where the factor comes from: iterations that each step needs.",
-    Figure.CONTRASTS: "What each claim says, in every setup.",
+    Figure.FIGURE_1: "Both errors fall during learning.",
+    Figure.STEPS: "Which step saves how many iterations.",
+    Figure.CONTRASTS: "The number behind each claim, in every setup.",
     Figure.LEARNERS: "The learners on the paper's damage.",
     Figure.SCENARIOS: "Both errors before and after learning, for each damage and robot.",
     Figure.AMOUNTS: "Slighter and greater damages.",
@@ -56,67 +56,61 @@ TITLES = {
 }
 CAPTIONS = {
     Figure.FIGURE_1: (
-        "Mean errors over {study.training.tests} test poses, from which nothing is learned, against"
-        " iterations of two moves each. Lines: means over {study.training.seeds} seeds; bands: 5 to"
-        " 95 % of the seeds. Right: the same errors on a logarithmic scale."
+        "Mean errors over {study.training.tests} held-out poses against iterations of two moves"
+        " each: means (lines) and 5 to 95 % (bands) of {study.training.seeds} seeds. Right: the"
+        " same on a logarithmic scale."
     ),
     Figure.STEPS: (
-        "The reference study. Top: the larger of both errors, as a share of the arm's error without"
-        " correction, against the number of iterations for which a system is tuned. The level line"
-        " is the improved system's error after {study.experiments.iterations} iterations. Bottom:"
-        " iterations after which each system reaches this error, and their ratio to"
-        " {study.experiments.iterations}. The increments are those of two maps. In all systems but"
-        " the improved one, widths and rate fall as Ritter's. Ritter's map has as many cells as"
-        " both new maps together, or half as many. Last row: the same number in all setups (dots; a"
-        " triangle is a lower bound), their mean (diamond) with its 95 % interval (thick line), and"
-        " the interval for one more study (thin line). Dashed: the paper's factor of 70."
+        "The reference study. Top: the larger remaining share of the two errors, against the"
+        " number of iterations for which a system is tuned; the horizontal line is the improved"
+        " system's share after {study.experiments.iterations} iterations. Bottom: iterations after"
+        " which each system reaches this line, and their ratio to {study.experiments.iterations}."
+        " Ritter's map has as many cells as both new maps together, or half as many; + means: two"
+        " maps with this change. A last row shows the number in all setups, once enough are"
+        " measured (triangle: a lower bound), and their mean (diamond) with its 95 % interval"
+        " (thick) and that for one more study (thin)."
     ),
     Figure.CONTRASTS: (
-        "Top: the error of the first variant over the error of the second. Bottom: the larger"
-        " remaining share of both errors. Dots: setups; diamond: their mean, with its 95 % interval"
-        " (thick line) and the interval for one more study (thin line). On the shaded side the"
-        " paper is right; between the dotted lines, errors differ by less than 10 %. Seven rows"
-        " concern Ritter's framework (section 4), the next five the improved system. Supernet /"
-        " subnets: fewer cells in the one / in the other. Drastic change: the advantage of"
-        " increments there / in the paper's damage. Numbers: the mean of the setups."
+        "Top: the error of the first variant divided by the error of the second. Bottom: the larger"
+        " remaining share of the two errors. Dots: setups; diamond: their mean, with its 95 %"
+        " interval (thick) and that for one more study (thin). The paper is right on the shaded"
+        " side; between the dotted lines errors differ by less than 10 %. Seven rows concern"
+        " Ritter's framework (section 4), the next five the improved system. Drastic change: the"
+        " advantage of increments there, divided by their advantage with the paper's damage."
     ),
     Figure.LEARNERS: (
-        "Mean errors over {study.training.tests} test poses against iterations of two moves each,"
-        " with means (lines) and 5 to 95 % (bands) of {study.training.seeds} seeds. Each training"
-        " has settings that are tuned for its last iteration. Level line: the error at which the"
-        " training of Figure 1 ends."
+        "Mean errors over {study.training.tests} held-out poses: means (lines) and 5 to 95 %"
+        " (bands) of {study.training.seeds} seeds. Each training is tuned for its last iteration."
+        " Horizontal line: the final error of Figure 1."
     ),
     Figure.SCENARIOS: (
         "Means over {study.training.seeds} seeds; lines: 5 to 95 % of them. Errors below 0.001 are"
-        " drawn there. Other robots have the settings of the study's own."
+        " drawn at 0.001. Other robots are trained with the settings of the study's robot."
     ),
     Figure.AMOUNTS: (
         "Errors of the improved system before and after {study.experiments.iterations} iterations,"
-        " against the size of the damage, where 1 is the paper's. Lines: medians over random"
-        " assignments of the damage to links and encoders; bands: 5 to 95 % of them. The settings"
-        " are tuned for the paper's damage."
+        " against the size of the damage (1: the paper's, for which the system is tuned). Lines:"
+        " medians over random assignments to links and encoders; bands: 5 to 95 % of them."
     ),
     Figure.MAPPING: (
         "Initial errors (section 7): every assignment of the paper's damage to links, encoders and"
-        " signs; cross: the published errors; circle: the assignment that is used. Coupling (4):"
-        " norm of the off-diagonal blocks of the mapping's Jacobian over that of the diagonal ones,"
-        " for position and orientation commands, at 95 % of the poses of each setup; line: the"
-        " criterion. What to propagate (5): below 1, the old mapping plus a constant is nearer to"
-        " the new mapping than a constant is; medians over {study.mapping.balls} balls, for"
-        " commands of the intact arm and Jacobians of the damaged one. Expected learning (6):"
-        " simulation over equation (10), against the distance of a cell from the border of the"
-        " workspace; line: the criterion."
+        " signs; cross: published; circle: used here. Coupling (4): norm of off-diagonal over"
+        " diagonal blocks of the mapping's Jacobian at 95 % of the poses of each setup; line: the"
+        " criterion. What to propagate (5): below 1, the new mapping is nearer to the old one plus"
+        " a constant than to a constant; medians over {study.mapping.balls} regions. Expected"
+        " learning (6): simulation over equation (10), against the distance of a cell from the"
+        " border of the workspace; line: the criterion."
     ),
     Figure.BENCHMARK: (
         "Means over {study.benchmark.seeds} seeds; bands: 95 % intervals. An iteration of the"
-        " paper's learners takes two moves. Errors below 1 micrometre are drawn there. Where the"
-        " geometric learner is as good as the hybrid one, its line lies below."
+        " paper's learners takes two moves. Errors below 1 micrometre are drawn at 1 micrometre."
+        " The thick line of the geometric learner lies under the line of the hybrid one."
     ),
     Figure.REAL_ARM: (
-        "Mean position error on test poses, measured by laser tracker, against the number of poses"
-        " that were learned from. Means over {study.real.subsets} random subsets; bands: 95 %"
-        " intervals. The paper's learners choose their poses themselves, so they learn on a twin"
-        " of the arm, identified from all poses. Level line: the error published with the data."
+        "Mean position error on held-out poses, measured by laser tracker, against the number of"
+        " training poses. Means over {study.real.subsets} random subsets; bands: 95 % intervals."
+        " The paper's learners choose their poses, so they train on a simulated twin of the arm,"
+        " identified from all poses. Horizontal line: the error published with the data."
     ),
 }
 

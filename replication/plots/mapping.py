@@ -102,6 +102,6 @@ def _visits(axes: Axes, evidence: Evidence) -> None:
     axes.axvline(AWAY, **BORDER)
     axes.axhline(1, linestyle=DASHED, **BORDER)
     axes.scatter(table["distance"] / table["width"], table["ratio"], s=0.4 * MARK, color=NEUTRAL)
-    axes.set(xlabel="distance / width", ylabel="simulated / (10)", xlim=(-0.2, 6.2))
+    axes.set(xlabel="distance / width", ylabel="simulated / eq. (10)", xlim=(-0.2, 6.2))
     axes.set_ylim(0, 1.15)
     axes.set_title("expected learning")

@@ -21,12 +21,12 @@ from replication.plots.style import MARK, WIDTH, logarithmic, name_right, name_r
 # By variant, from Ritter's map to the improved system. Colours of learners, whose names are here.
 STEPS: Mapping[str, Style] = {
     RITTER: Style("#757575", "^", "-", "Ritter, half the cells"),
-    DOUBLE: Style(STYLES[RITTER].color, "P", "-", "Ritter, as many cells"),
+    DOUBLE: Style(STYLES[RITTER].color, "P", "-", "Ritter, equal cells"),
     TWO_MAPS: Style("#661100", "X", "-", "two maps"),
-    "two_maps_jacobian": Style("#CD87AD", "v", "-", "with Jacobian increments"),
-    "two_maps_theta": Style("#05AB6E", "D", "-", "with theta increments"),
-    "two_maps_increments": Style("#61D6FF", "s", "-", "with both increments"),
-    IMPROVED: Style(STYLES[IMPROVED].color, "o", "-", "improved: equal visits, too"),
+    "two_maps_jacobian": Style("#CD87AD", "v", "-", "+ Jacobian increments"),
+    "two_maps_theta": Style("#05AB6E", "D", "-", "+ command increments"),
+    "two_maps_increments": Style("#61D6FF", "s", "-", "+ both increments"),
+    IMPROVED: Style(STYLES[IMPROVED].color, "o", "-", "improved: + equal visits"),
 }
 ENDS = 45, 45_000  # iterations
 
@@ -53,18 +53,18 @@ def steps(evidence: Evidence) -> Figure:
     names, lowest = [style.label for style in shown.values()], 0.4
     if enough(setups):
         texts.append(_in_words(_draw_setups(below, setups, own), own))
-        names.append(f"as many cells,\n{len(setups.table)} setups")
+        names.append(f"Ritter, equal cells,\n{len(setups.table)} setups")
         below.axhline(0.5, **BORDER)
         lowest = -0.7
     rows = range(len(shown), len(shown) - len(names), -1)
     name_rows(below, rows, names)
     name_right(below, rows, texts)
     below.set(xlim=ENDS, ylim=(lowest, len(shown) + 0.6))
-    below.set_xlabel("iterations, tuned for each number")
+    below.set_xlabel("iterations (each length tuned)")
     logarithmic(below.xaxis, 50, 200, 1000, 5000, 20_000)
     level = 100 * np.exp(goal.values(home).table.to_numpy().mean())
     above.axhline(level, color=STEPS[IMPROVED].color, linewidth=0.8)
-    above.set_ylabel("larger error that\nremains [%]")
+    above.set_ylabel("larger remaining\nshare [%]")
     logarithmic(above.yaxis, 1, 2, 5, 10, 20, 50, 100)
     _draw_published(own * PUBLISHED, above, below)
     return figure

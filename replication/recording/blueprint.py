@@ -26,7 +26,7 @@ def arrange(
     """Tabs: the arm with the first learner, and all learners side by side where there are several.
 
     Args:
-        published: initial errors, where there are any.
+        published: initial errors, if there are any.
     """
     learners = list(watched)
     arm = rrb.Horizontal(

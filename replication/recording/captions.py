@@ -17,7 +17,7 @@ PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
 def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
-    """The text beside the first learner's arm, in Markdown."""
+    """The text next to the first learner's arm, in Markdown."""
     main, damages = next(iter(watched.values())), damages_among(resolved.damages)
     disturbances = [entry for entry in resolved.damages if entry not in damages]
     text = [

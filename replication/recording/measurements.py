@@ -24,7 +24,7 @@ def send_errors(scene: Scene, colour: Sequence[int]) -> None:
 
 
 def send_published(scene: Scene, published: Mapping[str, float]) -> None:
-    """The published initial errors, where there are any, as straight lines in the plots."""
+    """The published initial errors, if there are any, as straight lines in the plots."""
     for quantity, unit in zip(ERRORS, UNITS, strict=True):
         if quantity in published:
             name = f"the paper, before: {published[quantity]} {unit}"

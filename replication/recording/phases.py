@@ -58,7 +58,7 @@ def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray, most: int
     Args:
         angles: (measurement, pose, joint) rad that the joints are sent to for the shown poses.
         iterations: (measurement,) done until then.
-        most: iterations of the longest training that is shown beside it: all share one clock.
+        most: iterations of the longest training that is shown next to it: all share one clock.
     """
     before, after = angles[0], angles[-1]
     departures = VISIT * np.arange(len(before))

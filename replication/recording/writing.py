@@ -115,7 +115,7 @@ def write_recording(
     """Write what was watched of learners on a scenario's robot.
 
     Args:
-        published: initial errors by quantity, where there are any.
+        published: initial errors by quantity, if there are any.
 
     Raises InvalidFile: a mesh of the robot is not found, or the file ends too early.
     """

@@ -1,4 +1,4 @@
-"""Says why a file is no study: `python -m replication.running.readable FILE`.
+"""Says why a file is not a study: `python -m replication.running.readable FILE`.
 
 Snakemake reads the file before the project does, and names no file when it cannot.
 """

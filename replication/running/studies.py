@@ -127,7 +127,7 @@ def _typed(value: Any) -> Any:
 
 
 def named_files(project: Path, study: Study) -> list[Mistake]:
-    """Files that a study names and that are not there, or are no bands."""
+    """Files that a study names and that are not there, or are not bands."""
     named = {EXPECTED: study.expected, DESCRIPTION: study.real.description}
     named |= {("real", "data", part, "file"): its.file for part, its in study.real.data}
     found = [

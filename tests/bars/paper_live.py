@@ -232,7 +232,7 @@ def calibrated(job: tuple[str, int]) -> dict[str, str | float]:
 def drawn(curves: pd.DataFrame) -> None:
     """Both errors over iterations: the mean of the seeds, and all between the least and largest."""
     plt.rcParams.update(STYLE)
-    figure, panels = plt.subplots(2, 2, figsize=(9, 7), sharex="col", sharey="row")
+    figure, panels = plt.subplots(2, 2, figsize=(9, 8), sharex="col", sharey="row")
     for column, learners in zip(panels.T, ITERATIONS, strict=True):
         for axes, error in zip(column, ERRORS, strict=True):
             for learner, (condition, dashes) in product(learners, LINES.items()):
@@ -248,7 +248,7 @@ def drawn(curves: pd.DataFrame) -> None:
         ratio = _mean_ratio(curves, best)
         name = f"{label_of(best)} ends\nat {_short(ratio)} times the error of kinematics"
         column[0].set_title(f"{TITLES[learners]}: {name}")
-        column[1].legend(fontsize=8)
+        column[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2)  # hides no curve
         column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")
     for axes, (error, unit) in zip(panels[:, 0], ERRORS.items(), strict=True):
         axes.set_ylabel(f"{error.split('_')[0]} error [{unit}]")

@@ -38,6 +38,7 @@ def commands() -> list[str]:
         for language, block in BLOCK.findall(text)
         if language == "sh"
         for line in CONTINUED.sub("", block).splitlines()
+        if not line.startswith("{%")  # of a template
     }
     modules = {command for text in texts for command in MODULE.findall(text)}
     return sorted({*filter(None, lines), *modules} - {*SETTING})

@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-ROOT = Path(workflow.basedir)
+ROOT = Path(str(workflow.current_basedir)).parents[1]  # also if another workflow uses this one
 sys.path.insert(0, str(ROOT))
 
 from replication.running.environment import prepare

@@ -62,6 +62,7 @@ rule pages:
     input:
         EVIDENCE,
         FINDINGS,
+        "pyproject.toml",
         # relative: a project that was moved does not begin again
         templates=[os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],
         figures=FIGURES,
@@ -215,7 +216,7 @@ rule article:
     input:
         source=f"{RESULTS}/pages/article.typ",
         references="workflow/article/references.bib",
-        figures=FIGURES,
+        figures=[*FIGURES, "figures/method.svg", f"figures/{Figure.BENCHMARK.file}.svg"],
     output:
         article=f"{RESULTS}/article.pdf",
     log:

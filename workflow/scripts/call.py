@@ -6,6 +6,7 @@ outputs it gets by their names, if it asks for them; the outputs that it does no
 written from what it returns.
 """
 
+import atexit
 import inspect
 import os
 import sys
@@ -53,18 +54,17 @@ def main(job: Snakemake) -> None:
     print(f"{job.rule}: made {job.output[0]} in {seconds:.1f} s", file=sys.stderr)
 
 
-def into(log: Path) -> int:
-    """Send what the job prints into its log, which Snakemake shows if it fails."""
+def into(log: Path) -> None:
+    """Send what the job prints into its log, and that to the terminal at the job's end."""
     terminal = os.dup(2)
     with log.open("wb") as file:
         os.dup2(file.fileno(), 1)
         os.dup2(file.fileno(), 2)
-    return terminal
+    # after Python has printed why it ends
+    atexit.register(lambda: os.write(terminal, log.read_bytes()))
 
 
 snakemake: Snakemake  # Snakemake defines it where this is its script
 if "snakemake" in globals():
-    terminal = into(Path(snakemake.log[0]))
+    into(Path(snakemake.log[0]))
     main(snakemake)
-    sys.stderr.flush()
-    os.write(terminal, Path(snakemake.log[0]).read_bytes())

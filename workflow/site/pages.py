@@ -1,12 +1,14 @@
 """The site's pages: those of the repository from where they lie, and one from the docstrings."""
 
 import ast
+import re
 from functools import cache
 from pathlib import Path
 
 from mkdocs.structure.files import File, Files
 
 import recalib
+from replication.pages.imprint import Imprint
 from replication.recording.web_viewer import ADDRESS, embed
 
 SHOWN = (
@@ -23,6 +25,7 @@ SHOWN = (
 )
 PLACES = {"docs/index.md": "index.html", "README.md": "README.html"}  # others keep theirs
 WIDE = "docs/index.md", "docs/try.md", "docs/watch.md"  # without columns beside the text
+BADGES = re.compile(r"^\[!\[.*\n\n", re.MULTILINE)  # pictures from elsewhere
 WATCH, VIEWER = "docs/watch.md", "viewer"
 # Where the picture is in the repository: the viewer has 35 MB, so nothing is loaded before a click.
 EMBEDDED = f"""<button type="button" class="md-button embed" data-address="../{VIEWER}/{ADDRESS}">
@@ -36,6 +39,14 @@ What `import recalib` has, and which examples use it: tests run them all.
 [How it fits together](library.md).
 
 """
+
+
+def on_config(config):
+    """Link the repository, once the project has an address; nothing is fetched from there."""
+    if repository := Imprint.read(Path(config.config_file_path).parent).repository:
+        link = {"icon": "fontawesome/brands/git-alt", "link": repository, "name": "Repository"}
+        config.extra["social"] = [link]
+    return config
 
 
 def on_files(files: Files, config) -> Files:
@@ -55,6 +66,8 @@ def on_files(files: Files, config) -> Files:
 
 def on_page_markdown(markdown: str, page, config, files: Files) -> str:
     """Give some pages the whole width, and one the recording, if it was made."""
+    if page.file.src_uri == "README.md":
+        markdown = BADGES.sub("", markdown)
     if page.file.src_uri in WIDE:
         page.meta["hide"] = ["navigation", "toc"]
     if page.file.src_uri == WATCH and _recording(config).exists():

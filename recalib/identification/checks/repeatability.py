@@ -1,4 +1,4 @@
-"""How well an arm returns to a posture, beside how well a camera sees it.
+"""How well an arm returns to a posture, apart from how well a camera sees it.
 
 Corners tell some directions of a pose a hundred times better than others. If the arm itself does
 not return as well, the surest directions are less sure than they look. So both are weighed: each

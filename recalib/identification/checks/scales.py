@@ -29,7 +29,7 @@ class Scale(NamedTuple):
     Attributes:
         factor: its size over what it is said to be.
         remaining: the part of the noise that these sizes leave of that with the sizes that are
-            said, as positions are in the table; 0 of a board, of which nobody asks. Where other
+            said, as positions are in the table; 0 of a board, of which nobody asks. If other
             links than those described are the reason, or none has a length, much of it remains.
     """
 

@@ -248,7 +248,7 @@ class Unexplained:
 
 
 def _times(observations: Observations) -> np.ndarray:
-    """When rows were measured (n,), in seconds, or in rows where nobody wrote it down."""
+    """When rows were measured (n,), in seconds, or in rows if no time was recorded."""
     return np.arange(len(observations)) if observations.times is None else observations.times
 
 

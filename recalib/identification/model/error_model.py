@@ -67,7 +67,7 @@ class ErrorModel:
         arm: the nominal kinematics.
         terms: the joint terms: `OFFSETS`, `JOINT_ERRORS` or `JOINT_WAVES`, each of which starts
             with the one before it; or `NO_ERRORS`, which holds all but unknown frames at nominal.
-        frames: at both ends of the arm; its own base and tool unless given.
+        frames: at both ends of the arm; default: its own base and tool.
 
     Attributes:
         nominal: the arm.
@@ -251,7 +251,7 @@ class ErrorModel:
         Args:
             parameters: (P,) of the model.
             joints: (n, joints) rad, m that the controller assumes.
-            targets: (n,) the numbers of the sights; the first unless given.
+            targets: (n,) the numbers of the sights; default: the first.
         """
         standing = self.standing(parameters, joints, self.terms(joints))
         poses = np.empty((len(joints), 4, 4))

@@ -20,7 +20,7 @@ class Frames:
 
     Where one is known, what the arm's base or its last link is found to be beside it is an error of
     the arm. Where it is not, that is a better estimate of it, and the arm's own base or last link
-    stays nominal: nobody could tell.
+    stays nominal: it is not identifiable.
 
     What a row is of is a sight: an instrument, and a target that it measures.
 
@@ -35,14 +35,14 @@ class Frames:
         optics_deviations: (o,) of the optics of cameras, of which there are none unless given.
         further: (i, 4, 4) m, the pose of the base in the frames of further instruments, if there
             are any: then all frames are estimates.
-        optics_kinds: (o,) which of `OPTICS` they are; the first of them unless given.
+        optics_kinds: (o,) which of `OPTICS` they are; default: the first of them.
         sights: (s, 2) the numbers of the instrument and of the target of each sight; the first
             instrument's of each target unless given.
         base_prior, target_prior: (6,) m and rad, standard deviations of the instrument's pose along
             the axes of the arm's base, and of the targets' along those of the tool; none where they
             are unknown or exact. What has them is an estimate.
         link_deviations, offset_deviation: of links [m, rad] and joint offsets [rad] before anything
-            is known; the latter is that of the joint terms unless given.
+            is known; the latter is by default the prior of the joint terms.
     """
 
     base: np.ndarray = field(default_factory=lambda: np.eye(4))

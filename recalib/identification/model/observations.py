@@ -30,13 +30,13 @@ class Observations:
     Attributes:
         joints: (n, joints) rad, or m where a joint slides, that the controller reported.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of a target in the instrument's frame;
-            None where a ball sat in sockets.
-        targets: (n,) the number of the target, or of the ball; 0 unless given. Where there are
-            several instruments, that of the sight: see `Frames`.
-        sockets: (n,) the number of the socket in which it sat; None where it was measured.
-        distances: between sockets, where they are known.
-        times: (n,) s, which do not decrease; None where nobody wrote them down.
-        optics: what poses are worth that cameras measured; None where all are worth the same.
+            None for a ball in sockets.
+        targets: (n,) the number of the target or ball (of the sight if there are several
+            instruments: see `Frames`); default: 0.
+        sockets: (n,) the number of the ball's socket; None if an instrument measured.
+        distances: known distances between sockets.
+        times: (n,) s, in ascending order; None if none were recorded.
+        optics: information of poses from cameras; None if all rows have equal weight.
     """
 
     joints: np.ndarray

@@ -64,8 +64,8 @@ class AllowedPostures:
             too, and the outermost part of each joint's range is left out.
         span: rad that each joint may move either way from home; half a metre for each rad where it
             slides.
-        box: in which the tool is in postures and on paths; anywhere unless given.
-        clearance: what must not touch in postures and on paths; anything may unless given.
+        box: in which the tool is in postures and on paths; default: anywhere.
+        clearance: what must not touch in postures and on paths; default: anything may.
 
     Attributes:
         home: as given.

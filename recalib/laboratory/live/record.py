@@ -35,7 +35,7 @@ class Pictures(Protocol):
     tool_radius: float
 
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
-        """Poses (n, 4, 4) [m] in pictures, and what is known of them. Raises InvalidFile."""
+        """Poses (n, 4, 4) [m] in pictures, and their information. Raises InvalidFile."""
         ...
 
     def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -50,7 +50,7 @@ class Record:
     """The rows so far, the postures that a person skipped, and the files that hold them.
 
     A row that a killed process or a full disk left without its end is dropped; nothing else that
-    is there is changed. Skipped postures are in a file of their own beside the table.
+    is there is changed. Skipped postures are in a file of their own next to the table.
 
     Args:
         path: of the table, which may be there already.
@@ -64,7 +64,7 @@ class Record:
         skipped: postures (n, joints) [rad, m].
         dropped: the row without an end, if there was one.
 
-    Raises InvalidFile: it is no such table, or another process writes it.
+    Raises InvalidFile: it is not such a table, or another process writes it.
     """
 
     def __init__(
@@ -142,9 +142,9 @@ class Record:
 
         Args:
             angles: (joints,) rad, m where the arm stood.
-            cells: what was measured there, by the headers of its columns.
+            cells: the measurements there, by the headers of its columns.
 
-        Raises InvalidFile: its columns are others than before, or its cells are no measurement.
+        Raises InvalidFile: its columns are others than before, or its cells are not a measurement.
         """
         names, row = [*self._joints, *map(str, cells)], [*angles.tolist(), *cells.values()]
         header = self._header if len(self) else names

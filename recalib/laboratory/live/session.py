@@ -38,7 +38,7 @@ class LiveSettings:
         span: rad that each joint may move either way from where it stood at first; half a metre for
             each rad where it slides.
         box: in which the nominal tool link stays; None where the limits of the joints are enough.
-        speed: of the fastest joint, as a part of what it allows.
+        speed: of the fastest joint, as a fraction of its limit.
         floor: m, the height in the arm's base above which all moves; None without a floor.
         self_collision: whether links keep apart.
 
@@ -111,14 +111,14 @@ def calibrate_live(
 ) -> Ended:
     """Let an arm move and measure until its calibration is accurate enough.
 
-    It begins where the arm stands, or goes on with the rows that are there. Whatever goes wrong,
-    the station is stopped and nothing moves any more.
+    It begins at the arm's present posture, or continues with the rows of the table. If anything
+    goes wrong, it stops the station and commands no further move.
 
     Args:
         opening: makes the station.
         arm: the nominal one.
         table: CSV, new or begun by this function.
-        ask: called before each move; whether it may be made. All may unless given.
+        ask: called before each move, returns whether to make it; default: all are made.
         description: what the table does not say itself.
         on_progress: called with lines for people.
         on_row: called with the rows so far, and what calibrates by them.

@@ -56,7 +56,7 @@ def observe(
         board: the description of the board (TOML); the file's name is that of the board.
         lens: a calibration of the lens (YAML of ROS or OpenCV; default: estimated).
         in_hand: whether the camera is on the hand.
-        on_progress: called with what is being done, in a line each.
+        on_progress: called with the current step, in a line each.
         camera: the name of the camera, among several.
         least: how many pictures have to be of use.
 

@@ -40,7 +40,7 @@ FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture, and what was found in it.
+    """A picture and the corners found in it.
 
     Attributes:
         row: in the table, from 1.

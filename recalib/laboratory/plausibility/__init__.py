@@ -1,1 +1,1 @@
-"""Checks of what a user gives against one another, before and after the fit."""
+"""Checks of a user's inputs against each other, before and after the fit."""

@@ -1,4 +1,4 @@
-"""The identified parameters by name, and what is known of each."""
+"""The identified parameters by name, with their uncertainties."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What was measured of an arm, read from a table; docs/own_arm.md describes it."""
+"""Measurements of an arm, read from a table; docs/own_arm.md describes it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

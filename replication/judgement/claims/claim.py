@@ -104,17 +104,19 @@ class OfSetups:
         """The number in each setup. Raises NotMeasured, as `judge`."""
         values = self.estimand.values(evidence.outcomes())
         if not enough(values):
-            raise NotMeasured(
-                f"campaign: {self.statement.id} in {FEWEST} setups, one of them twice"
-            )
+            raise TooFewSetups(self.name)
         return values
+
+
+class TooFewSetups(NotMeasured):
+    """The campaign has not measured a number in so many setups that a verdict may follow."""
 
 
 FEWEST = 20  # setups: until then no verdict follows from them (docs/registration.md)
 
 
 def enough(values: Values) -> bool:
-    """Whether a verdict may follow: luck and heterogeneity can be told, and setups are enough."""
+    """Whether a verdict may follow: enough setups, and one of them measured twice."""
     counts = np.isfinite(values.table).sum(axis=1)
     return len(counts) >= FEWEST and bool(counts.max() > 1)
 

@@ -28,8 +28,8 @@ def identity(statement: Statement, evidence: Evidence) -> Finding:
     holds = all(history[column].max() < LARGEST for column in ERRORS)
     ritter = evidence.errors(RITTER, evidence.study.experiments.iterations, "intact").mean(axis=0)
     note = (
-        f"Ritter's map, which shares values, does not keep the identity: {ritter[0]:.2g} cm and"
-        f" {ritter[1]:.2g} degrees remain after as many iterations."
+        f"Ritter's map, whose cells share commands, moves away from the identity: its errors are"
+        f" {ritter[0]:.2g} cm and {ritter[1]:.2g} degrees after as many iterations."
     )
     verdict = Verdict.SUPPORTED if holds else Verdict.CONTRADICTED
     return statement.finding(verdict, *largest, note=note)
@@ -40,12 +40,12 @@ def single_valued(statement: Statement, evidence: Evidence) -> Finding:
     table = evidence.mapping("solutions")
     commands, angles = table["commands"], table["joint_solutions"]
     numbers = [
-        Number(name=f"{which} commands for a pose", system="the controller", value=float(value))
-        for which, value in (("most", commands.max()), ("fewest", commands.min()))
+        Number(name=f"{which} number of commands that reach a pose", system="", value=float(value))
+        for which, value in (("largest", commands.max()), ("smallest", commands.min()))
     ]
     note = (
-        f"{len(table):,} poses, each reached by {angles.mean():.1f} joint solutions on average and"
-        f" by {angles.max()} at most."
+        f"On average {angles.mean():.1f} sets of joint angles reach a pose, at most"
+        f" {angles.max()}, over {len(table):,} poses."
     )
     verdict = Verdict.SUPPORTED if (commands == 1).all() else Verdict.CONTRADICTED
     return statement.finding(verdict, *numbers, note=note)
@@ -61,11 +61,11 @@ def grid(statement: Statement, evidence: Evidence) -> Finding:
 
     kohonen, least = over("kohonen_10000"), over("kmeans")
     numbers = [
-        number(f"quantisation error over that after {name}", "regular grid", estimate)
+        number(f"quantisation error of the regular grid / of {name}", "", estimate)
         for name, estimate in (
-            ("Kohonen's rule", kohonen),
-            ("k-means", least),
-            ("a grid from face to face", over("faces")),
+            ("cells placed by Kohonen's rule", kohonen),
+            ("cells placed by k-means", least),
+            ("a grid that reaches the faces", over("faces")),
         )
     ]
     verdict = of_all(RATIO.of_interval(kohonen), Comparison(log(WORSE)).of_interval(least))
@@ -132,12 +132,12 @@ def claims(iterations: int, cells: str) -> list[OfSetups | Measured]:
                 " the arm remains.",
                 "A learner that leaves a quarter of the error is not quick.",
             ),
-            "larger share of the arm's errors that remains",
+            "larger remaining share of the two errors",
             "Ritter's one map",
             Remaining(cells, iterations),
             Comparison(log(SLOW), below=False),
             {
-                ("error with a random start / from the identity", "Ritter's one map"): Contrast(
+                ("error from a random start / from the identity", "Ritter's one map"): Contrast(
                     Remaining("ritter_random_start", iterations), Remaining(RITTER, iterations)
                 )
             },

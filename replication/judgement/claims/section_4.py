@@ -17,6 +17,7 @@ POSES = 0.95
 BOX = 2  # times as long as the workspace
 RISES = RATIO._replace(below=False)  # the paper is right above 1
 ONE, TWO = "Ritter's one map", "Ritter's two maps"
+ONE_TWO = "Ritter's algorithm"
 
 
 def weak_coupling(statement: Statement, evidence: Evidence) -> Finding:
@@ -25,19 +26,19 @@ def weak_coupling(statement: Statement, evidence: Evidence) -> Finding:
     worst = table.groupby("setup")[list(KINDS)].max().max(axis=1)
     holds, setups = int((worst <= WEAK).sum()), len(worst)
     shares = Number(
-        name="share of setups in which it holds",
-        system="the mapping",
+        name="share of setups with weak coupling",
+        system="",
         value=holds / setups,
         interval=share_interval(holds, setups),
     )
     middle = number(
-        f"off-diagonal over diagonal block, at {100 * POSES:g} % of poses",
-        "the mapping",
+        f"norm of off-diagonal / diagonal blocks, {100 * POSES:g} % quantile",
+        "",
         student(np.log(worst.to_numpy())),
     )
     by_robot = worst.groupby(evidence.levels()["robot"]).median().round(3)
     text = ", ".join(f"{robot} {value:g}" for robot, value in by_robot.items())
-    note = f"It holds in {holds} of {setups} setups; medians by robot: {text}."
+    note = f"Coupling is weak in {holds} of {setups} setups. Medians by robot: {text}."
     return statement.finding(of_share(holds, setups), shares, middle, note=note)
 
 
@@ -53,14 +54,14 @@ def nearness(statement: Statement, evidence: Evidence) -> Finding:
         for its in (larger[larger["condition"] > middle], larger[larger["condition"] <= middle])
     )
     estimates = {
-        "cross effect in a box twice as long / in the workspace": student(np.log(most / least)),
-        "cross effect nearer to / farther from singularities": student(np.log(near / far)),
+        "coupling in a box twice as long / in the workspace": student(np.log(most / least)),
+        "coupling near / far from singularities": student(np.log(near / far)),
     }
     note = (
-        f"The intervals are over {table['draw'].nunique()} draws of poses in the reference study."
-        " Size and distance from singularities were not varied apart."
+        f"Intervals over {table['draw'].nunique()} draws of poses in the reference study. Size and"
+        " distance from singularities were not varied independently."
     )
-    numbers = [number(name, "the mapping", its) for name, its in estimates.items()]
+    numbers = [number(name, "", its) for name, its in estimates.items()]
     verdict = of_all(*map(RISES.of_interval, estimates.values()))
     return statement.finding(verdict, *numbers, note=note)
 
@@ -144,7 +145,7 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
                 " as the workspace, and all else tuned anew.",
                 "No neighbourhood needs to be wider than the workspace.",
             ),
-            "position error as tuned / with a wide g_k",
+            "position error with tuned / with wide neighbourhoods of positions",
             TWO,
             Contrast(
                 left("two_maps_for_position", "position"),
@@ -162,7 +163,7 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
                 " shares that the map leaves if it is tuned for each error alone.",
                 "If both errors had the same optimum, the ratio would be 1.",
             ),
-            "error tuned for both / tuned for each alone",
+            "error if tuned for both / for each error alone",
             ONE,
             Compromise(
                 left(DOUBLE),
@@ -183,10 +184,10 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
                 " remains, too much to show a difference.",
             ),
             "error with two maps / with one",
-            "Ritter's",
+            ONE_TWO,
             Contrast(left(TWO_MAPS), left(DOUBLE)),
             beside={
-                ("error with two maps / with one, 200 iterations", "Ritter's"): Contrast(
+                ("error with two maps / with one, 200 iterations", ONE_TWO): Contrast(
                     Remaining(TWO_MAPS, iterations), Remaining(DOUBLE, iterations)
                 ),
                 ("error with two maps / with one", "improved system"): Contrast(
@@ -203,7 +204,7 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
                     f"widths-{error}",
                     "4",
                     words,
-                    f"The {error} map wants {wanted}.",
+                    f"The {error} map needs {wanted}.",
                     f"After {late:,} iterations, the {error} error of two maps is smaller if the"
                     f" {error} map's final widths have the paper's order than in reverse order. The"
                     " other error stays within what a search for both finds.",

@@ -38,14 +38,12 @@ def nearer(kind: str) -> Callable[[Statement, Evidence], Finding]:
         meets = table["to_original"] < EQUAL * table["to_constant"]
         better = table["updated"] < EQUAL * table["classic"]
         shares = {
-            "share of balls in which the new update is better, if the condition holds": better[
-                meets
-            ],
-            "share of balls in which the condition holds": meets,
-            "share in which it is better if the condition does not hold": better[~meets],
+            "share of regions with the condition in which changes are better": better[meets],
+            "share of regions with the condition": meets,
+            "share of regions without it in which changes are better": better[~meets],
         }
         numbers = [
-            Number(name=name, system="the mapping", value=float(its.mean()))
+            Number(name=name, system="", value=float(its.mean()))
             for name, its in shares.items()
             if len(its)
         ]
@@ -54,8 +52,9 @@ def nearer(kind: str) -> Callable[[Statement, Evidence], Finding]:
             often = better[meets].mean() >= OFTEN
             verdict = Verdict.SUPPORTED if often else Verdict.CONTRADICTED
         note = (
-            f"{len(tried) - len(table)} of {len(tried)} balls are left out, since some pose in them"
-            " has no command. The same centres serve all scales, so the shares have no interval."
+            f"Regions are balls. {len(tried) - len(table)} of {len(tried)} contain a pose without"
+            " command and are left out. The same centres serve all scales, so shares have no"
+            " interval."
         )
         return statement.finding(verdict, *numbers, note=note)
 
@@ -138,7 +137,7 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
                 "5",
                 "The new update version is better than the classical one when the Jacobian function"
                 " of f' is more similar to df/dw than to a constant matrix.",
-                "The same holds for Jacobians.",
+                "The same condition decides for Jacobians.",
                 criterion,
                 reason,
             ),
@@ -149,7 +148,7 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
                 "not-drastic",
                 "5",
                 "in the usual case in which the kinematics change is not drastic",
-                "Sharing changes pays less after a drastic change of the kinematics.",
+                "Sharing changes helps less after a drastic change of the kinematics.",
                 "The error with both increments over that without them is larger with encoder"
                 " shifts three times as large.",
                 "If the size of the change did not matter, both ratios would be the same.",

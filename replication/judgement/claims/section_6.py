@@ -26,8 +26,8 @@ def coarse_widths(statement: Statement, evidence: Evidence) -> Finding:
     )
     rates = table.groupby("width")["rate"].first()
     note = (
-        f"The rates are {rates['wide']:g} and {rates['narrow']:g}, the best on other poses. The"
-        f" intervals are over {len(taken)} seeds, and leave out the luck of this choice."
+        f"The learning rates {rates['wide']:g} and {rates['narrow']:g} were best on other poses."
+        f" Intervals over {len(taken)} seeds, without the uncertainty of this choice."
     )
     verdict = of_all(
         Comparison(log(MANY), below=False).of_interval(more),
@@ -35,7 +35,7 @@ def coarse_widths(statement: Statement, evidence: Evidence) -> Finding:
     )
     return statement.finding(
         verdict,
-        number("iterations with narrow neighbourhoods / with wide ones", "improved system", more),
+        number("iterations with narrow / with wide neighbourhoods", "improved system", more),
         number("iterations with wide neighbourhoods", "improved system", wide),
         note=note,
     )
@@ -50,11 +50,11 @@ def expected_learning(statement: Statement, evidence: Evidence) -> Finding:
     border = table[(table["distance"] == 0) & (table["width"] <= NEAR_A_FACE)]["ratio"].mean()
     note = (
         f"{len(away)} combinations of width and distance. On a face of the workspace a cell learns"
-        f" {border:.2f} of the formula."
+        f" {100 * border:.0f} % of what the formula predicts."
     )
     return statement.finding(
         Verdict.SUPPORTED if agrees.all() else Verdict.CONTRADICTED,
-        Number(name="largest deviation", system="equation (10)", value=float(deviation.max())),
+        Number(name="largest relative deviation", system="", value=float(deviation.max())),
         note=note,
     )
 
@@ -91,11 +91,10 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
                 "6",
                 "The second equality results from assuming Gaussian neighborhoods and a uniform"
                 " p(w), and it is valid for w_r's not too close to the border",
-                "A formula predicts how much a cell learns in an iteration.",
+                "Equation (10) predicts how much a cell learns in an iteration.",
                 "Monte Carlo agrees within 5 % and three of its standard errors for all cells at"
                 " least 3 sigma from the border.",
-                "No schedule would show a deviation below 5 %. The formula is equation (10).",
-                "equation (10)",
+                "No schedule would show a deviation below 5 %.",
             ),
             expected_learning,
         ),

@@ -11,12 +11,13 @@ from replication.judgement.claims.claim import (
     Measured,
     OfSetups,
     Statement,
+    TooFewSetups,
     enough,
     log,
     of_all,
 )
 from replication.judgement.contrasts import Crossing, Remaining
-from replication.judgement.evidence import Evidence, NotMeasured
+from replication.judgement.evidence import Evidence
 from replication.judgement.findings import Finding, number, spread
 from replication.judgement.hierarchy import another, student
 from replication.judgement.verdicts import Comparison, Verdict, of_published
@@ -40,13 +41,11 @@ def rigid(statement: Statement, evidence: Evidence) -> Finding:
         if first.max() >= NONE:
             found[f"{name} error, {scenario.replace('_', ' and ')}"] = student(np.log(last / first))
     numbers = [
-        number(f"share that remains: {name}", "improved system", its) for name, its in found.items()
+        number(f"remaining share of the {name}", "improved system", its)
+        for name, its in found.items()
     ]
     numbers.sort(key=lambda its: -its.value)
-    note = (
-        "The intervals are over seeds. What the real robot did is not published in numbers, and no"
-        " run here can repeat it."
-    )
+    note = "Intervals over seeds. The results of the real robot are not published in numbers."
     return statement.finding(Verdict.UNDECIDED, *numbers, note=note)
 
 
@@ -57,17 +56,17 @@ def initial_error(statement: Statement, evidence: Evidence) -> Finding:
     numbers, verdicts = [], []
     for error in ERRORS:
         logs = np.log(table[error].to_numpy())
-        numbers.append(number(f"mean initial {error}", "damaged arm", student(logs), another(logs)))
+        numbers.append(number(f"mean initial {error}", "", student(logs), another(logs)))
         verdicts.append(of_published(log(published[error]), another(logs)))
     ours = evidence.table(f"assignments/{evidence.study.robot}.parquet")
     nearest = ours.loc[ours["distance"].round(TIE).idxmin()]
     below = [(ours[error] < published[error]).mean() for error in ERRORS]
     note = (
-        f"Lengths are those of the study's own robot. Of its {len(ours):,} assignments,"
-        f" {int((ours['distance'] <= NEAR).sum())} are within {100 * NEAR:g} % of both; the nearest"
-        f" gives {nearest[ERRORS[0]]:.2f} cm and {nearest[ERRORS[1]]:.2f} degrees;"
-        f" {100 * below[0]:.0f} % have a smaller position error, {100 * below[1]:.0f} % a smaller"
-        " orientation error."
+        f"Lengths are scaled to the {evidence.study.robot.upper()}."
+        f" {int((ours['distance'] <= NEAR).sum())} of its {len(ours):,} assignments come within"
+        f" {100 * NEAR:g} % of both published errors; the nearest has {nearest[ERRORS[0]]:.2f} cm"
+        f" and {nearest[ERRORS[1]]:.2f} degrees. {100 * below[0]:.0f} % have a smaller position"
+        f" error, {100 * below[1]:.0f} % a smaller orientation error."
     )
     return statement.finding(of_all(*verdicts), *numbers, note=note)
 
@@ -76,11 +75,11 @@ def speed_up(iterations: int) -> Callable[[Statement, Evidence], Finding]:
     """How to judge the factor of 70: by where one more study would find its own."""
     goal = Remaining(IMPROVED, iterations)
     ways = {
-        ("iterations of Ritter's map / of the improved system", "as many cells"): Crossing(
+        ("iterations of Ritter's map / of the improved system", "equally many cells"): Crossing(
             DOUBLE, goal
         ),
-        ("with half as many cells", "Ritter's one map"): Crossing(RITTER, goal),
-        ("with the paper's searches: very rough, and optimised", "as many cells"): Crossing(
+        ("with half as many cells", ""): Crossing(RITTER, goal),
+        ("with a rough search for the improved system", "as in the paper"): Crossing(
             DOUBLE, Remaining("improved_rough", iterations)
         ),
     }
@@ -90,14 +89,14 @@ def speed_up(iterations: int) -> Callable[[Statement, Evidence], Finding]:
         for (name, system), crossing in ways.items():
             values = crossing.values(evidence.outcomes())
             if not enough(values):
-                raise NotMeasured(f"campaign: {name}")
+                raise TooFewSetups(name)
             its = values.model()
             models.append((its, values))
             numbers.append(number(name, system, its.mean, its.another))
         its, values = models[0]
         verdict = of_published(log(PUBLISHED), its.another)
         ends = (values.bounds != 0).to_numpy().sum()
-        note = f"{ends} of {int(values.table.count().sum())} factors are bounds, and enter as such."
+        note = f"{ends} of {int(values.table.count().sum())} factors are bounds."
         long = Comparison(log(LONG), below=False)
         return statement.finding(
             verdict,
@@ -111,7 +110,7 @@ def speed_up(iterations: int) -> Callable[[Statement, Evidence], Finding]:
 
 def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
-    left = "larger share of the arm's errors that remains"
+    left = "larger remaining share of the two errors"
     return [
         Measured(
             Statement(
@@ -150,7 +149,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
                 f"After {iterations} iterations less than a tenth of both errors of the arm"
                 " remains.",
                 "An order of magnitude is the least that a figure would show.",
-                "Figure 1, whose picture is not part of the text",
             ),
             left,
             "improved system",
@@ -184,7 +182,7 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
                 "more than 10,000 iterations",
             ),
             "iterations of Ritter's map / of the improved system",
-            "as many cells",
+            "equally many cells",
             Crossing(DOUBLE, Remaining(IMPROVED, iterations)),
             Comparison(log(LONG), below=False),
         ),

@@ -13,8 +13,8 @@ def controller_kept(statement: Statement, evidence: Evidence) -> Finding:
     difference = float(table["difference"].max())
     return statement.finding(
         Verdict.SUPPORTED if difference == 0 else Verdict.CONTRADICTED,
-        Number(name="largest difference", system="improved system", value=difference),
-        note=f"{len(table)} learned arrays are compared.",
+        Number(name="largest difference between both runs", system="", value=difference),
+        note=f"All {len(table)} learned arrays were compared.",
     )
 
 

@@ -16,7 +16,7 @@ from replication.training import ERRORS, Place, places
 from tests.conftest import ROOT
 from tests.replication.plots.conftest import outcomes
 
-COMMITTED = "config.yaml", "workflow/deviations.yaml"
+COMMITTED = "config.yaml", "pyproject.toml", "workflow/deviations.yaml"
 CAMPAIGN = "workflow/campaign/design.csv", "workflow/campaign/second.yaml"
 INITIAL, FINAL = (8.4, 4.7), (0.32, 0.23)  # cm, degrees
 
