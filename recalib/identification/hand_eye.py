@@ -34,6 +34,7 @@ ENDS = 12  # parameters of camera and board
 EXACT = 1e-12  # m^2, rad^2: the variance of a pose that a table gives
 OUTLIER = 0.25  # the weight of a pose that is doubted
 STEPS, ROUNDS, SMALL = 40, 20, 1e-8  # of a fit; of the noise and the weights; m, rad
+LONGEST = 0.5  # rad: a step
 FAR = 16.8  # squares of deviations: of 6 numbers, 1 % are farther off; they count the less
 SETTLED = 0.01  # a change of weights
 FINEST, COARSEST = 1e-7, 1.0  # m, rad: no arm is as accurate, or as bad
@@ -333,13 +334,20 @@ def _moved_to_best(found: HandEye) -> HandEye:
         scale = 1 / np.sqrt(np.maximum(information.diagonal(), np.finfo(float).tiny))
         inverse = np.linalg.pinv(information * scale * scale[:, None], rcond=1e-12, hermitian=True)
         covariance = inverse * scale * scale[:, None]
-        step = covariance @ gradient
+        step = _bounded(covariance @ gradient, found.sights)
         camera, board = _moved(found.camera, step[:6]), _moved(found.board, step[6:ENDS])
         optics = found.optics + step[ENDS:]
         found = replace(found, camera=camera, board=board, optics=optics, covariance=covariance)
         if np.abs(step[:ENDS]).max() < SMALL:
             break
     return found
+
+
+def _bounded(step: np.ndarray, sights: Sights) -> np.ndarray:
+    """A step of at most `LONGEST`, and as far as poses lie: longer ones may never end."""
+    positions, turns = np.abs(step[:ENDS].reshape(2, 2, 3)).max(axis=(0, 2))
+    reach = max(np.abs(poses[:, :3, 3]).max() for poses in (sights.flange, sights.board))
+    return step / max(1.0, positions / reach, turns / LONGEST)
 
 
 def _moved(pose: np.ndarray, step: np.ndarray) -> np.ndarray:
