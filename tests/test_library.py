@@ -55,7 +55,8 @@ def test_the_three_lines_for_an_arm_of_ones_own_reduce_its_errors(monkeypatch, t
     offsets = np.radians([0.0, 0.5, -0.5, 0.5, -0.5, 0.0])
     joints = rng.uniform(-1, 1, (30, 6)) + np.array([0, -1, 2, -2, -1.6, 0])
     positions = arm.forward(joints + offsets)[:, :3, 3]
-    names = {name: getattr(recalib, name) for name in recalib.__all__}
+    said = {*re.findall(r"\w+", identify + learn)} & {*recalib.__all__}
+    names = {name: getattr(recalib, name) for name in said}
     exec(identify, names | {"joints": joints, "positions": positions})
     assert "mm" in capsys.readouterr().out
     home = dict(zip(arm.joints, np.array([0, -1.4, 2.1, -2.9, -1.57, 0]), strict=True))

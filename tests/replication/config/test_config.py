@@ -185,7 +185,7 @@ def test_a_mistake_in_a_file_that_an_overlay_mends_is_none(here):
 
 def test_the_editors_schema_is_that_of_the_types():
     assert (ROOT / schema.FILE).read_text(encoding="utf-8") == schema.text(), (
-        "python -m replication.config.schema writes it anew"
+        "python -m replication.config writes it anew"
     )
 
 
