@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import yaml
 from pydantic import TypeAdapter
@@ -55,6 +56,8 @@ class Judged:
         finding: None if it was not measured.
         needs: then, what would measure it, unless it is the campaign.
         earlier: then, what the second campaign found, if it judged the claim.
+        so_far: then, the number that will decide, in the setups measured so far: its mean, and its
+            range as interval.
         changed: whether its criterion changed after a result had been seen.
         shares: names and systems of those of its numbers that are shares of an error.
     """
@@ -63,6 +66,7 @@ class Judged:
     finding: Finding | None
     needs: str
     earlier: Earlier | None
+    so_far: Number | None
     changed: bool
     shares: frozenset[tuple[str, str]]
 
@@ -151,11 +155,30 @@ class Contents:
         shares = frozenset(key for key, its in numbers.items() if isinstance(its, Remaining))
         needs = "" if finding else self._needs(claim)
         earlier = None if finding else self._earlier.get(claim.statement.id)
+        so_far = None if finding else self._so_far(claim)
         changed = any(
             change.kind == "criterion" and claim.statement.id in change.digests
             for change in self.deviations.deviations
         )
-        return Judged(claim.statement, finding, needs, earlier, changed, shares)
+        return Judged(claim.statement, finding, needs, earlier, so_far, changed, shares)
+
+    def _so_far(self, claim: Claim) -> Number | None:
+        """What the campaign has measured while no verdict may follow."""
+        if not isinstance(claim, OfSetups):
+            return None
+        try:
+            values = claim.estimand.values(self.evidence.outcomes())
+        except NotMeasured:
+            return None
+        setups = values.table.mean(axis=1).dropna()
+        if setups.empty:
+            return None
+        mean, least, most = np.exp([setups.mean(), setups.min(), setups.max()])
+        bounds = {1: "at least", -1: "at most"}
+        bound = next((bounds[its] for its in values.bounds.to_numpy().flat if its), None)
+        return Number(
+            name=claim.name, system=claim.system, value=mean, interval=(least, most), bound=bound
+        )
 
     @cached_property
     def _earlier(self) -> dict[str, Earlier]:

@@ -9,6 +9,7 @@ import yaml
 from replication.config import read_study
 from replication.judgement.claims import FEWEST
 from replication.pages import OUTCOME, Contents, pages_of, render, write
+from replication.pages.formats import short
 from replication.plots import Figure
 from tests.conftest import ROOT
 
@@ -105,7 +106,18 @@ def test_an_incomplete_campaign_says_how_many_setups_were_measured(partial, begu
     assert "Missing: `mapping/solutions.parquet`." in page
     cells = {cells[0]: cells[2:] for cells in rows(page, HEAD)}
     (found,) = (its for claim, its in cells.items() if "make both errors small" in claim)
-    assert found == ["6.9 % (6 to 7.9 %) of the initial error remains", "supported †"]
+    assert found == ["6.9 % (6 to 7.9 %) remains", "supported †"]
+
+
+def test_until_a_verdict_follows_the_number_so_far_stands_beside_the_earlier_one(begun, complete):
+    so_far = begun.claims["theta-increments"].so_far
+    least, most = so_far.interval
+    assert least < so_far.value < most
+    assert f"0.107), now {short(so_far.value)} |" in render("README.md", begun)
+    assert f"{so_far.name} {begun.claims['theta-increments'].text(so_far)}." in render(
+        "findings.md", begun
+    )
+    assert not any(claim.so_far for claim in complete.claims.values())
 
 
 def test_a_readme_without_any_setup_has_the_verdicts_of_the_second_campaign(study, project):
