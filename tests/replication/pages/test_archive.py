@@ -38,6 +38,10 @@ def folder(study, project, monkeypatch) -> Path:
     }
     name = base64.b64encode(b"results/claims.json").decode()
     (archive.NOTES / name).write_text(json.dumps(note), encoding="utf-8")
+    drawn = its / "results" / "figures"
+    drawn.mkdir(exist_ok=True)
+    for name in ("figure1.svg", "figure8.svg"):  # that of the study, and that of the benchmark
+        (drawn / name).write_text("<svg/>", encoding="utf-8")
     return its
 
 
@@ -80,6 +84,8 @@ def test_checksums_tell_which_results_another_run_has_to_give(unpacked):
     check = ["sha256sum", "--check", "--quiet", "SHA256SUMS"]
     assert subprocess.run(check, cwd=published).returncode == 0
     listed = (published / "SHA256SUMS").read_text(encoding="utf-8")
+    assert "figure1.svg" in listed
+    assert "figure8.svg" not in listed  # `make` does not draw it
     assert "  claims.json\n" in listed and "  summary.csv\n" in listed
     (published / "claims.json").write_text("[]", encoding="utf-8")
     spoilt = subprocess.run(check, cwd=published, capture_output=True, text=True)
