@@ -114,7 +114,7 @@ class Controller:
         """Joint targets of the commands, coordinates (run, move, 6)."""
         solution = Solution(*kernels.targets(*self.nominal, commands.reshape(-1, 6)))
         return Targets(
-            solution.angles.reshape(*commands.shape[:-1], -1),
+            solution.angles.reshape(*commands.shape[:-1], len(self.robot.joints)),
             solution.reached.reshape(commands.shape[:-1]),
         )
 

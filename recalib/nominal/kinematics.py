@@ -116,7 +116,7 @@ class Arm:
         for own, q in zip(points, postures, strict=True):
             pin.forwardKinematics(self.model, self._data, q)
             own[1:-1] = [placement.translation for placement in list(self._data.oMi)[1:]]
-        return points.reshape(*shape, -1, 3)
+        return points.reshape(*shape, *points.shape[1:])
 
     def forward_and_jacobian(self, angles: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and the tool's Jacobians (n, 6, joint).

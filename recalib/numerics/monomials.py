@@ -11,7 +11,7 @@ def monomials(points: np.ndarray, degree: int) -> np.ndarray:
     """The products (..., F) of up to `degree` coordinates of points (..., d), by their degrees."""
     shorter, last = factors(points.shape[-1], degree)
     products = _products(points.reshape(-1, points.shape[-1]), shorter, last)
-    return products.reshape(*points.shape[:-1], -1)
+    return products.reshape(*points.shape[:-1], len(last))
 
 
 @cache

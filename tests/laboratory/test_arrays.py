@@ -4,7 +4,7 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
@@ -79,6 +79,7 @@ def test_whatever_is_given_ends_in_our_own_exception(arm, joints, measured, opti
 
 
 @given(ANY)
+@example(np.zeros((0, 3)))
 def test_one_posture_or_many_and_no_other_shape(arm, joints):
     """Whatever is asked where the tool is says so, in the shape of the question, or refuses."""
     damaged = apply(arm, [LinkShortening("link_2", 0.01), EncoderShift("lift", 0.02)])
