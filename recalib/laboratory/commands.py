@@ -11,7 +11,6 @@ import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import check_new, write_new
-from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
@@ -19,11 +18,10 @@ from recalib.laboratory.hand_eye.conventions import convention_of
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
-from recalib.laboratory.report.folder import files_of, pose_rows, postures_table
+from recalib.laboratory.report.folder import files_of, postures_table
 from recalib.laboratory.tables.columns import TARGETS
-from recalib.laboratory.tables.description import within
 from recalib.laboratory.tables.measurements import STILL, read_desired
-from recalib.laboratory.tables.table import read_table, table_text
+from recalib.laboratory.tables.table import read_table
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
 from recalib.spelling import counted, listed
@@ -41,7 +39,8 @@ def calibrate(options: Options) -> int:
     """Write a folder of results from a table, from folders of pictures, or from flange poses."""
     if options.poses is not None:
         if options.urdf is None:
-            return calibrate_poses(options)
+            calibrate_poses = _load("laboratory.hand_eye.commands", "calibrate_poses")
+            return int(calibrate_poses(options, print_progress))
         options.measurements = [_observed(options)]
     if not options.measurements:
         valid = "URDF and a table, or --poses and --pictures"
@@ -73,33 +72,6 @@ def calibrate_rows(options: Options) -> int:
     print(f"\n{options.out}: {', '.join(files)}")
     print(remark, end="\n" * bool(remark))
     return DONE if result.worthwhile else NO_BETTER
-
-
-def calibrate_poses(options: Options) -> int:
-    """Write a folder of where camera and board are, without a URDF."""
-    if (options.pictures is None) == (options.targets is None):
-        raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
-    calibrating, inverse = _hand_eye("calibrating"), options.inverse or ()
-    read_poses, in_hand = _hand_eye("pose_table").read_poses, options.camera == "hand"
-    flange = read_poses(options.poses, options.convention, options.unit, "flange" in inverse)
-    if options.targets is None:
-        given = options.pictures, options.board, options.lens, in_hand, print_progress
-        shown = calibrating.pictures_at(flange, *given)
-    else:
-        own = options.target_convention, options.unit, "targets" in inverse
-        shown = read_poses(options.targets, *own)
-    height = options.height and within("--height", options.height, LENGTH, 1e-4)
-    result = calibrating.calibrate_poses(flange, shown, in_hand, height, print_progress)
-    files = result.files()
-    write_new(options.out, files)
-    print(result.summary(), end="")
-    print(f"\n{options.out}: {', '.join(files)}")
-    return DONE if result.good else NO_BETTER
-
-
-def _hand_eye(module: str) -> Any:
-    """A module that needs OpenCV."""
-    return import_module(f"recalib.laboratory.hand_eye.{module}")
 
 
 def _observed(options: Options) -> Path:
@@ -185,7 +157,7 @@ def correct(options: Options) -> int:
 def next_(options: Options) -> int:
     """Write the most informative postures, or poses of a flange."""
     if options.poses:
-        return next_poses(options)
+        return int(_load("laboratory.hand_eye.commands", "next_poses")(options))
     correction = load_correction(options.calibration)
     candidates: np.ndarray | Goals | None = None
     if options.candidates is not None:
@@ -203,19 +175,6 @@ def next_(options: Options) -> int:
         f"They would reduce the uncertainty of predicted positions from {before:.3g} mm to"
         f" {after:.3g} mm" + ("." if proposal.worthwhile else ": more rows are not worthwhile.")
     )
-    return DONE
-
-
-def next_poses(options: Options) -> int:
-    """Write the poses of a flange that tell most of a camera's place."""
-    box = None if options.box is None else _load("laboratory.live.allowed", "Box").read(options.box)
-    cone = ANGLE.value_of("--cone", options.cone)
-    propose_poses = _hand_eye("proposing").propose_poses
-    poses, deviations = propose_poses(options.calibration, options.count, box, cone)
-    write_new(options.out, table_text(pose_rows(poses)), ".csv")
-    before, after = 1e3 * deviations[[0, -1]]
-    print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
-    print(f"They would reduce the camera's deviation from {before:.3g} mm to {after:.3g} mm.")
     return DONE
 
 

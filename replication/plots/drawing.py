@@ -1,8 +1,8 @@
 """Draws the figures of a study into files."""
 
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 
 import matplotlib.figure
 import matplotlib.pyplot as plt
@@ -15,10 +15,7 @@ from replication.plots.style import STYLE, save
 
 def drawn(figure: Figure, evidence: Evidence) -> matplotlib.figure.Figure:
     """A figure of a study's results. Raises NotMeasured."""
-    module, _, function = figure.value.partition(".")
-    found: matplotlib.figure.Figure = getattr(
-        import_module(f"replication.plots.{module}"), function
-    )(evidence)
+    found: matplotlib.figure.Figure = resolve_name(f"replication.plots.{figure.value}")(evidence)
     return found
 
 

@@ -11,15 +11,15 @@ from replication.judgement.evidence import Evidence, NotMeasured
 class Figure(Enum):
     """A figure, by the module and the function that draw it; numbered in this order."""
 
-    FIGURE_1 = "learning.figure_1"  # the paper's only one
-    STEPS = "steps.steps"
-    CONTRASTS = "contrasts.contrasts"
-    LEARNERS = "learning.learners"
-    SCENARIOS = "learning.scenarios"
-    AMOUNTS = "damages.amounts"
-    MAPPING = "mapping.mapping"
-    BENCHMARK = "benchmark.benchmark"
-    REAL_ARM = "benchmark.real_arm"
+    FIGURE_1 = "learning:figure_1"  # the paper's only one
+    STEPS = "steps:steps"
+    CONTRASTS = "contrasts:contrasts"
+    LEARNERS = "learning:learners"
+    SCENARIOS = "learning:scenarios"
+    AMOUNTS = "damages:amounts"
+    MAPPING = "mapping:mapping"
+    BENCHMARK = "benchmark:benchmark"
+    REAL_ARM = "benchmark:real_arm"
 
     @property
     def number(self) -> int:

@@ -1,9 +1,9 @@
 """Every rule hands over what its function asks for."""
 
 from inspect import Parameter, signature
+from pkgutil import resolve_name
 
 from replication.config import Study
-from workflow.scripts.call import function_of
 
 TRACKED = {"function", "study", "code", "digits"}  # for Snakemake, or for the script
 
@@ -12,7 +12,7 @@ def test_every_rule_fits_its_function(rules, study):
     calling = [its for its in rules if "function" in its.params.keys()]  # noqa: SIM118
     assert len(calling) > 15
     for rule in calling:
-        function = function_of(rule.params.function)
+        function = resolve_name(rule.params.function)
         takes = signature(function).parameters
         needed = {name for name, its in takes.items() if its.default is Parameter.empty}
         params = {*rule.params.keys()}

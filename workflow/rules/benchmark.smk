@@ -11,7 +11,7 @@ rule benchmark_run:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("training.benchmark.compete"),
+        **calls("training.benchmark:compete"),
         learner=lambda w: w.learner,
     message:
         "Let {wildcards.learner} work through the benchmark's scenarios"
@@ -33,7 +33,7 @@ rule benchmark_table:
         f"{RESULTS}/logs/benchmark_table.log",
     localrule: True
     params:
-        **calls("judgement.benchmark.put_together"),
+        **calls("judgement.benchmark:put_together"),
         digits=6,
     message:
         "Put the benchmark together"
@@ -49,7 +49,7 @@ rule real_data:
         f"{RESULTS}/logs/real_data.log",
     localrule: True
     params:
-        **calls("training.tracker.fetch"),
+        **calls("training.tracker:fetch"),
     message:
         "Bring the poses of the real arm"
     script:
@@ -71,7 +71,7 @@ rule real_run:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("training.real_arm.learn"),
+        **calls("training.real_arm:learn"),
         learner=lambda w: w.learner,
     message:
         "Let {wildcards.learner} learn from recorded poses of the real arm"
@@ -90,7 +90,7 @@ rule real_table:
         f"{RESULTS}/logs/real_table.log",
     localrule: True
     params:
-        **calls("judgement.benchmark.real_errors"),
+        **calls("judgement.benchmark:real_errors"),
         digits=5,
     message:
         "Put the results on the real arm together"

@@ -33,7 +33,7 @@ rule design:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("campaign.drawing.design"),
+        **calls("campaign.drawing:design"),
     message:
         "Draw the setups of the campaign"
     script:
@@ -50,7 +50,7 @@ rule untrained:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("campaign.untrained.untrained"),
+        **calls("campaign.untrained:untrained"),
     message:
         "Measure the mapping in every setup"
     script:
@@ -69,7 +69,7 @@ rule variant:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("campaign.measuring.measure_variant"),
+        **calls("campaign.measuring:measure_variant"),
         setup=lambda w: int(w.setup),
         replicate=lambda w: int(w.replicate),
         variant=lambda w: w.variant,
@@ -88,7 +88,7 @@ rule outcomes:
         f"{RESULTS}/logs/outcomes/{{setup}}.{{replicate}}.log",
     localrule: True
     params:
-        **calls("campaign.measuring.put_together"),
+        **calls("campaign.measuring:put_together"),
     message:
         "Put setup {wildcards.setup}, replicate {wildcards.replicate} together"
     script:

@@ -36,7 +36,7 @@ IS_SHIPPED = STUDY.name == SHIPPED
 
 
 def calls(function):
-    """Params of a rule that calls a function of `replication`: it runs again if its code changes."""
+    """Params of a rule that calls "module:function" of `replication`, and again if its code changes."""
     return {
         "function": f"replication.{function}",
         "study": STUDY.model_dump_json(),

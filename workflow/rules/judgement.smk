@@ -24,7 +24,7 @@ rule summary:
         f"{RESULTS}/logs/summary.log",
     localrule: True
     params:
-        **calls("judgement.summary.summarise"),
+        **calls("judgement.summary:summarise"),
         digits=6,
     message:
         "Put the final errors of every training into one table"
@@ -42,7 +42,7 @@ rule findings:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("judgement.claims.findings_of"),
+        **calls("judgement.claims:findings_of"),
     message:
         "Judge every claim of the paper"
     script:
@@ -59,7 +59,7 @@ rule check:
         f"{RESULTS}/logs/check.log",
     localrule: True
     params:
-        **calls("judgement.checks.report"),
+        **calls("judgement.checks:report"),
     message:
         "Check the final errors against their bands"
     script:
@@ -75,7 +75,7 @@ rule expect:
         f"{RESULTS}/logs/expect.log",
     localrule: True
     params:
-        **calls("judgement.checks.propose"),
+        **calls("judgement.checks:propose"),
         digits=4,
     message:
         "Propose new bands for the check"

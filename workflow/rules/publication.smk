@@ -27,7 +27,7 @@ rule figures:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("plots.drawing.draw"),
+        **calls("plots.drawing:draw"),
     message:
         "Draw the figures"
     script:
@@ -51,7 +51,7 @@ rule recordings:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("recording.writing.record"),
+        **calls("recording.writing:record"),
     message:
         "Record the arm before and after recalibration"
     script:
@@ -72,7 +72,7 @@ rule pages:
         f"{RESULTS}/logs/pages.log",
     localrule: True
     params:
-        **calls("pages.writing.write"),
+        **calls("pages.writing:write"),
     message:
         "Write the pages"
     script:
@@ -90,7 +90,7 @@ rule in_browser:
         f"{RESULTS}/logs/in_browser.log",
     localrule: True
     params:
-        **calls("recording.in_browser.script"),
+        **calls("recording.in_browser:script"),
     message:
         "Write what a browser needs to repeat the recorded run"
     script:
@@ -122,7 +122,7 @@ rule publish:
         f"{RESULTS}/logs/publish.log",
     localrule: True
     params:
-        **calls("pages.publishing.publish"),
+        **calls("pages.publishing:publish"),
     message:
         "Publish figures and pages"
     script:
@@ -158,7 +158,7 @@ for part, (tables, figure, page) in APART.items():
             f"{RESULTS}/logs/{part}_figure.log",
         localrule: True
         params:
-            **calls("plots.drawing.draw"),
+            **calls("plots.drawing:draw"),
         message:
             f"Draw the {part}"
         script:
@@ -176,7 +176,7 @@ for part, (tables, figure, page) in APART.items():
             f"{RESULTS}/logs/{part}_page.log",
         localrule: True
         params:
-            **calls("pages.writing.write"),
+            **calls("pages.writing:write"),
         message:
             f"Write the page of the {part}"
         script:
@@ -193,7 +193,7 @@ for part, (tables, figure, page) in APART.items():
             f"{RESULTS}/logs/publish_{part}.log",
         localrule: True
         params:
-            **calls("pages.publishing.publish"),
+            **calls("pages.publishing:publish"),
         message:
             f"Publish the {part}"
         script:
@@ -224,7 +224,7 @@ rule article:
         f"{RESULTS}/logs/article.log",
     localrule: True
     params:
-        **calls("pages.article.typeset"),
+        **calls("pages.article:typeset"),
     message:
         "Set the article"
     script:
@@ -241,7 +241,7 @@ rule before_and_after:
         f"{RESULTS}/logs/before_and_after/{{scenario}}.log",
     localrule: True
     params:
-        **calls("recording.pictures.before_and_after"),
+        **calls("recording.pictures:before_and_after"),
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
     script:
@@ -257,7 +257,7 @@ rule film:
         f"{RESULTS}/logs/film/{{scenario}}.log",
     localrule: True
     params:
-        **calls("recording.pictures.take_film"),
+        **calls("recording.pictures:take_film"),
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
     script:

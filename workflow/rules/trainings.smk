@@ -30,7 +30,7 @@ rule scenarios:
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        **calls("training.scenarios.write_scenarios"),
+        **calls("training.scenarios:write_scenarios"),
     message:
         "Put the damages on the robots"
     script:
@@ -47,7 +47,7 @@ rule settings:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("campaign.own.tune"),
+        **calls("campaign.own:tune"),
         learner=lambda w: w.learner,
     message:
         "Search for the widths and rates of {wildcards.learner}"
@@ -75,7 +75,7 @@ for place in PLACES:
         resources:
             **room(mem_mb=2000, runtime=60),
         params:
-            **calls("training.train.train"),
+            **calls("training.train:train"),
             robot=place.robot,
             scenario=place.scenario,
         message:
@@ -94,7 +94,7 @@ rule ensemble:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("training.ensemble.train_ensemble"),
+        **calls("training.ensemble:train_ensemble"),
     message:
         "Train on other damages"
     script:
@@ -117,7 +117,7 @@ rule mapping:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("mapping.measured.measure"),
+        **calls("mapping.measured:measure"),
     message:
         "Measure the mapping that is to be learned"
     script:
@@ -136,7 +136,7 @@ rule learning:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("mapping.measured.learn"),
+        **calls("mapping.measured:learn"),
     message:
         "Learn from a table, and with constant widths"
     script:

@@ -12,8 +12,8 @@ import os
 import sys
 import time
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
 
 from pydantic import ConfigDict, validate_call
@@ -24,16 +24,9 @@ from replication.config.study import Study
 from replication.running.outputs import write
 
 
-def function_of(name: str) -> Callable[..., Any]:
-    """The function of a dotted name."""
-    module, _, last = name.rpartition(".")
-    function: Callable[..., Any] = getattr(import_module(module), last)
-    return function
-
-
 def main(job: Snakemake) -> None:
     """Do the job of a rule. A mistake of the user's or of the system is told in one line."""
-    function = function_of(job.params.function)
+    function: Callable[..., Any] = resolve_name(job.params.function)
     asked = inspect.signature(function).parameters
     files = {**dict(job.input.items()), **dict(job.output.items())}
     given = {name: path for name, path in files.items() if name in asked}
