@@ -39,7 +39,7 @@ from recalib.identification.model.error_model import ErrorModel
 from recalib.vision.boards import printable
 from recalib.vision.detection import find_corners
 from recalib.vision.views import board_pose
-from replication.campaign.setups import OUTCOMES
+from replication.config.shipped import OUTCOMES
 from replication.config.study import Study
 from replication.plots.palette import STYLES
 from replication.plots.style import STYLE, logarithmic, save, title
