@@ -72,21 +72,21 @@ def draw(cell: HandEyeCell, pictures: int, rendered: bool, wrong: int) -> list[f
         wrong: how many rows have the pose of the row before.
     """
     flange = cell.flange(pictures + FRESH)
-    said, views = cell.said(flange), cell.views(flange)
-    said[1 : wrong + 1] = said[:wrong].copy()
+    flanges, views = cell.said(flange), cell.views(flange)
+    flanges[1 : wrong + 1] = flanges[:wrong].copy()
     if rendered:
         shown = [cell.draw(pose) for pose in cell.seen(flange[:pictures])]
         views[:pictures] = [find_corners(cell.board, picture) for picture in shown]
     lens = find_lens([(cell.board, view) for view in views[:pictures]], cell.lens.size).lens
-    seen = [sighting(cell.board, lens, view, True, False) for view in views[:pictures]]
-    board, optics = optics_of(lens, seen)
+    sightings = [sighting(cell.board, lens, view, True, False) for view in views[:pictures]]
+    board, optics = optics_of(lens, sightings)
     height = (float(cell.target[2, 3]), 1e-4) if cell.four_axes else None
-    sights = Sights(said[:pictures], board, cell.in_hand, optics, height)
+    sights = Sights(flanges[:pictures], board, cell.in_hand, optics, height)
     found = calibrate_hand_eye(sights)
     own_lens = moved_lens(lens, found.optics[len(BOARD) :]) or lens
 
     def error(camera, board, lens):
-        between = np.linalg.inv(said) if cell.in_hand else said
+        between = np.linalg.inv(flanges) if cell.in_hand else flanges
         off = []
         for view, pose in zip(views[pictures:], between[pictures:], strict=True):
             expected, _ = projected(cell.board.points, lens, np.linalg.inv(camera) @ pose @ board)

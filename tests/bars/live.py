@@ -135,9 +135,9 @@ def pictured(seed: int, in_hand: bool) -> Live:
 
 def outcomes(kind: str, live: Sequence[Live]) -> None:
     """A row of the table."""
-    rows = [len(its.rows) for its in live]
-    before, after = ([getattr(its, what) for its in live] for what in ("before", "after"))
-    ratio = [its.predicted / its.after for its in live]
+    rows = [len(session.rows) for session in live]
+    before, after = ([getattr(session, what) for session in live] for what in ("before", "after"))
+    ratio = [session.predicted / session.after for session in live]
     print(
         f"| {kind} | {np.median(rows):.0f} ({max(rows)})"
         f" | {np.median(before):.1f} mm | {np.median(after):.2f} mm ({max(after):.2f})"

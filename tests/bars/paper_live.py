@@ -129,12 +129,12 @@ def tuned() -> Tuned:
 
 def weighed(damaged: DamagedArm, seed: int) -> DamagedArm:
     """The same with other masses."""
-    its = DamagedArm(damaged.arm.copy(), damaged.offsets)
-    factors = np.random.default_rng([seed, 7]).lognormal(sigma=UNSURE, size=its.arm.model.nv)
-    for inertia, factor in zip(list(its.arm.model.inertias)[1:], factors, strict=True):
+    arm = DamagedArm(damaged.arm.copy(), damaged.offsets)
+    factors = np.random.default_rng([seed, 7]).lognormal(sigma=UNSURE, size=arm.arm.model.nv)
+    for inertia, factor in zip(list(arm.arm.model.inertias)[1:], factors, strict=True):
         inertia.mass *= factor
         inertia.inertia *= factor
-    return its
+    return arm
 
 
 class Pictures(Disturbances):
@@ -154,33 +154,33 @@ class Pictures(Disturbances):
     def measure(self, generators, poses: np.ndarray) -> np.ndarray:
         """The pose (1, 1, 4, 4) [m] of the tool after the last move."""
         view = find_corners(BOARD, self.station.picture())
-        seen = board_pose(BOARD, self.station.lens, view)
-        return (self.before @ seen @ self.behind)[None, None]
+        target = board_pose(BOARD, self.station.lens, view)
+        return (self.before @ target @ self.behind)[None, None]
 
 
-def plant(its: Condition, seed: int) -> Plant:
+def plant(condition: Condition, seed: int) -> Plant:
     """The robot behind the untouched controller: its kinematics, or its dynamics."""
-    controller, damaged = scenario(its.scenario)
-    noise, moving = its.noise, weighed(damaged, seed) if its.other_masses else damaged
-    if its.pictures:
-        noise = Pictures(moving, its.gears, controller.robot.workspace.centre, seed)
+    controller, damaged = scenario(condition.scenario)
+    noise, moving = condition.noise, weighed(damaged, seed) if condition.other_masses else damaged
+    if condition.pictures:
+        noise = Pictures(moving, condition.gears, controller.robot.workspace.centre, seed)
         moving = noise.station
-    elif its.gears is not None:
-        moving = PhysicsStation(moving, its.gears)
+    elif condition.gears is not None:
+        moving = PhysicsStation(moving, condition.gears)
     return Plant(controller, moving, noise, [np.random.default_rng([seed, 8])])
 
 
-def trained(its: Condition, name: str, seed: int) -> History:
+def trained(condition: Condition, name: str, seed: int) -> History:
     """A learner's training with the poses of a seed of the study."""
     names = MAPS if name in MAPS else TODAY
     learner = (
         tuned().learner(name, ITERATIONS[MAPS][-1], 1)
         if names == MAPS
-        else make_peer(name, 1, scenario(its.scenario)[0].robot)
+        else make_peer(name, 1, scenario(condition.scenario)[0].robot)
     )
-    when, words = ITERATIONS[names], {"scenario": its.scenario}
+    when, words = ITERATIONS[names], {"scenario": condition.scenario}
     poses = Stream.SCENARIO.draw(study().seed, [seed], when[-1], TESTS, **words)
-    return train(plant(its, seed), learner, poses.desired, poses.tests, when)
+    return train(plant(condition, seed), learner, poses.desired, poses.tests, when)
 
 
 def curve(job: tuple[str, str, int]) -> pd.DataFrame:
@@ -259,7 +259,7 @@ def drawn(curves: pd.DataFrame) -> None:
 def _mean_ratio(curves: pd.DataFrame, learner: str) -> float:
     """The last position error with physics over that with kinematics, mean over seeds."""
     ends = (_ends(curves, learner, condition) for condition in ("physics", KINEMATICS))
-    return float(np.divide(*(its["position_error_cm"] for its in ends)).mean())
+    return float(np.divide(*(end["position_error_cm"] for end in ends)).mean())
 
 
 def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> dict:
@@ -272,7 +272,7 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
             if len(own):
                 cells = [_means(own[own.iteration == iteration]) for iteration in when]
                 cells[-1] = "; ".join(
-                    _spread(own[own.iteration == when[-1]][its]) for its in ERRORS
+                    _spread(own[own.iteration == when[-1]][error]) for error in ERRORS
                 )
                 rows.append([label_of(learner), condition, *cells])
         tables[TITLES[learners]] = {"when": when, "rows": rows}
@@ -304,7 +304,9 @@ def _agreement(curves: pd.DataFrame, condition: str) -> list[str]:
 def _ends(curves: pd.DataFrame, learner: str, condition: str) -> pd.DataFrame:
     """A row for each seed: the last errors, and what parts of the first ones they are."""
     own = curves[(curves.learner == learner) & (curves.condition == condition)]
-    first, last = (own[own.iteration == its].set_index("seed") for its in (0, own.iteration.max()))
+    first, last = (
+        own[own.iteration == iteration].set_index("seed") for iteration in (0, own.iteration.max())
+    )
     shares = {f"{error}, share": last[error] / first[error] for error in ERRORS}
     return last[[*ERRORS]].assign(**shares)
 
