@@ -17,7 +17,7 @@ from replication.config.reading import read_study
 from replication.config.shipped import root_of
 from replication.config.study import Study
 from replication.config.values import from_file
-from replication.pages.writing import pages_of
+from replication.pages.names import pages_of
 from replication.plots.figures import figures_of
 from replication.running.checks.consistency import check
 from replication.running.checks.geometry import check_robots
