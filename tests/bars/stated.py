@@ -192,10 +192,10 @@ def table(seeds: int, report: Callable[[str], None] = print) -> None:
     report("| --- | --- | --- | --- | --- |")
     for name, setup in SETUPS.items():
         draws = [errors_and_faults(setup, seed) for seed in range(seeds)]
-        away, near, same, wider = np.mean([errors for errors, _ in draws], axis=0)
+        blockwise, random, same, wider = np.mean([errors for errors, _ in draws], axis=0)
         named = ", ".join(sorted({names for _, names in draws if names}))
-        stated, true = f"{away:.3f} / {near:.3f}", f"{same:.3f} / {wider:.3f}"
-        ratios = f"{away / same:.2f} / {near / same:.2f}"
+        stated, true = f"{blockwise:.3f} / {random:.3f}", f"{same:.3f} / {wider:.3f}"
+        ratios = f"{blockwise / same:.2f} / {random / same:.2f}"
         report(f"| {name} | {stated} | {true} | {ratios} | {named} |")
 
 
