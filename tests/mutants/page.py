@@ -10,8 +10,6 @@ from cosmic_ray.work_db import use_db
 from cosmic_ray.work_item import WorkItem, WorkResult
 from scipy.stats import binomtest
 
-from tests.mutants import operators
-
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "mutants.md"
 
@@ -42,8 +40,6 @@ def write_page(sessions: Mapping[str, Path]) -> None:
             judged = [pair for pair in mutants.completed_work_items if pair[1].test_outcome]
             survived = [_survivor(*pair, reasons) for pair in judged if not pair[1].is_killed]
             row = {"of": mutants.num_work_items, "judged": len(judged), "survived": len(survived)}
-        names = [item.mutations[0].operator_name for item, _ in judged]
-        row["science"] = sum(name.startswith(operators.PROVIDER) for name in names)
         row["explained"] = sum(bool(survivor["reason"]) for survivor in survived)
         if judged:
             rows.append(row | {"part": part, "interval": _interval(row)})

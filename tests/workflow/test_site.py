@@ -36,7 +36,7 @@ SOFTWARE = "--use-angle=swiftshader", "--enable-unsafe-swiftshader"  # WebGL wit
 SCHEME = "return document.body.dataset.mdColorScheme"
 SCHEMES = {"light": "default", "dark": "slate"}
 # text, signatures, commands, sliders
-BY_NIGHT = "index.html", "docs/reference.html", "docs/library.html", "docs/try.html"
+BY_NIGHT = "index.html", "docs/reference/laboratory.html", "docs/library.html", "docs/try.html"
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group(name="site")]
 
