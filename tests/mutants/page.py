@@ -48,7 +48,7 @@ def write_page(sessions: Mapping[str, Path]) -> None:
     template = jinja2.Template((HERE / "page.md.j2").read_text(encoding="utf-8"))
     page = template.render(
         rows=rows,
-        whole=whole | {"part": "together", "interval": _interval(whole)},
+        whole=whole | {"interval": _interval(whole)},
         survivors=survivors,
     )
     PAGE.write_text(page + "\n", encoding="utf-8")
