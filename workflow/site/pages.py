@@ -99,7 +99,7 @@ def _recording(config) -> Path:
 
 
 def reference() -> dict[str, str]:
-    """The pages of the public names by the names of the pages: an overview, and one for each part."""
+    """Pages of the public names by their paths in docs: an overview, and one for each part."""
     parts = _parts()
     overview = [
         f"| [{title}](reference/{part}.md) | "
