@@ -187,7 +187,7 @@ def identified(
     except Untrustworthy as error:
         reasons = [in_words(fault, data, frames) for fault in without_shift(error.faults, mistake)]
         reasons += [f"likely: {mistake}"] if mistake else []
-        reasons += data.cameras.doubts if data.cameras else []
+        reasons += data.doubts
         ranges = data.rows_of_sights if len(data.tables) > 1 else []
         raise Untrustworthy("; ".join([str(error), *reasons, *ranges])) from None
     sizes = scales(arm, observations[validation.counted], frames)

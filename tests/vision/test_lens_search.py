@@ -9,9 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from recalib import load_arm
 from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.pictures.sessions import calibrate_pictures
+from recalib.laboratory.pictures.sessions import calibrate_pictures, read_folders
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import verdict
+from recalib.laboratory.tables.description import Description
 from recalib.vision import lens_search
 from recalib.vision.boards import printable
 from recalib.vision.detection import Corners, are_on_a_line, find_corners
@@ -109,8 +110,9 @@ def test_a_lens_that_is_not_mild_is_found_and_the_arm_is_not_blamed(wide):
     assert result.validation.mean_error("at random", result.validation.chosen) < 2e-4
     # a folder of an earlier search, which took another lens, is searched again
     (folder / "lens.yaml").write_text(LENS.as_ros())
-    again, first = Cameras.read([folder], result.arm), result.data.cameras
-    assert np.array_equal(again.lenses["camera"].matrix, first.lenses["camera"].matrix)
+    again = read_folders([folder], result.arm, Description())
+    first, optics = result.data, np.zeros(len(again.observations.optics.kinds))
+    assert again.lens_files(optics) == first.lens_files(optics)
 
 
 def test_a_given_lens_that_leaves_much_more_than_another_is_doubted_before_the_arm(wide):
@@ -120,7 +122,7 @@ def test_a_given_lens_that_leaves_much_more_than_another_is_doubted_before_the_a
     (doubt,) = cameras.doubts
     assert doubt.startswith("the given lens has a reprojection error of")
     assert not Cameras.read([observed(cell.lens)], arm).doubts
-    result = SimpleNamespace(mistake=None, data=SimpleNamespace(cameras=cameras))
+    result = SimpleNamespace(mistake=None, data=cameras)
     assert next(doubts(result)) == f"Careful: {doubt}."
 
 

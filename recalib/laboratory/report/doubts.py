@@ -32,7 +32,7 @@ def doubts(result: Results) -> Iterator[str]:
             "Careful: the table probably contains a mistake, without which the URDF fits far"
             f" better: {result.mistake}."
         )
-    for doubt in result.data.cameras.doubts if result.data.cameras else ():
+    for doubt in result.data.doubts:
         yield f"Careful: {doubt}."
     for fault in result.faults:
         yield f"Careful: {in_words(fault, result.data, result.frames)}."

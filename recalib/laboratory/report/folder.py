@@ -45,11 +45,11 @@ def files_of(result: Results) -> dict[str, bytes]:
     if result.places:
         files["frames.csv"] = table_text(map(_frame, result.places, [result] * len(result.places)))
     files["rows.csv"] = table_text(_rows(result))
-    if result.data.cameras is not None:
+    if (lens_files := result.data.lens_files) is not None:
         used = result.geometry if result.worthwhile else result.calibration
         optics = used.estimate.parameters[used.model.optics_columns]
         files[HAND_EYE] = hand_eye(result).encode()
-        files |= result.data.cameras.lens_files(optics)
+        files |= lens_files(optics)
     return files
 
 

@@ -161,7 +161,7 @@ def _facts(result: Results) -> dict[str, object]:
 
 
 def _cameras(result: Results) -> list[CameraErrors]:
-    if result.data.cameras is None:
+    if result.data.observations.optics is None:
         return []
     kinds = result.validation.chosen, NOTHING
     return [
