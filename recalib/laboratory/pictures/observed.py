@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 
 from recalib.errors import RecalibError
+from recalib.laboratory.report.templates import render
 from recalib.laboratory.tables.columns import (
     ERRORS,
     NOMINAL,
@@ -117,27 +118,7 @@ class Observed:
 
     def summary(self) -> str:
         """A page of text."""
-        lens, used = self.lens, self.used
-        (fx, _, cx), (_, fy, cy) = lens.matrix[:2]
-        source = "from these pictures"
-        if self.given is not None:
-            source = f"as given (one {source} has an error of {self.own.error:.3f} px)"
-        lines = [
-            f"{len(used)} of {len(self.pictures)} pictures are used;"
-            f" reprojection error {self.error:.3f} px along an axis",
-            *([f"Careful: {self.doubt}."] if self.doubt else []),
-            f"lens {source}: {lens.model}, focal lengths {fx:.1f} and {fy:.1f} px, principal point"
-            f" ({cx:.1f}, {cy:.1f}) px, distortion"
-            f" {', '.join(f'{number:.4f}' for number in lens.distortion)}",
-            *(
-                f"{picture.name} (row {picture.row}) is refused: {picture.reason}"
-                for picture in self.pictures
-                if picture.reason
-            ),
-        ]
-        if self.unlisted:
-            lines.append(f"not in {self.table.path.name}: {', '.join(self.unlisted)}")
-        return "\n".join([*lines, ""])
+        return render("observed.txt.j2", result=self, used=self.used)
 
     @property
     def setup(self) -> str:

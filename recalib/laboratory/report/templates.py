@@ -21,10 +21,10 @@ def quoted(text: str) -> str:
 
 
 def render(template: str, **values: Any) -> str:
-    """A template with values in it; in HTML, these are escaped."""
+    """A template with values in it; in HTML and XML, these are escaped."""
     environment = Environment(
         loader=PackageLoader("recalib.laboratory.report", "."),
-        autoescape=lambda name: name is not None and ".html" in name,
+        autoescape=lambda name: name is not None and (".html" in name or ".urdf" in name),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

@@ -41,7 +41,7 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
     added = (
         f'  <link name="{name}"/>\n  <joint name="{name}" type="fixed">\n'
         f'    <parent link="{nominal.tool}"/>\n    <child link="{name}"/>\n'
-        f"    {_origin(tool)}\n  </joint>\n"
+        f"    {origin_element(tool)}\n  </joint>\n"
     )
     return with_origins(source, origins, added), name
 
@@ -77,7 +77,7 @@ def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = 
     pieces, done = [], 0
     for joint in sorted(origins, key=lambda joint: spans[joint]):
         start, end = spans[joint]
-        new = _origin(origins[joint]).replace("<", f"<{prefix}")
+        new = origin_element(origins[joint]).replace("<", f"<{prefix}")
         pieces += [text[done:start], (new if start < end else f"\n    {new}").encode()]
         done = end
     more = re.sub("(</?)", rf"\1{prefix}", added).encode("utf-8")
@@ -85,7 +85,8 @@ def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = 
     return changed.decode("utf-8").encode(code)
 
 
-def _origin(pose: np.ndarray) -> str:
+def origin_element(pose: np.ndarray) -> str:
+    """The origin of a joint at a pose (4, 4) [m]."""
     return f'<origin xyz="{written(pose[:3, 3])}" rpy="{written(angles_of(pose))}"/>'
 
 
