@@ -18,11 +18,11 @@ from recalib.identification.checks.scales import scales
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.validation import validate
 from recalib.laboratory.data_set import DataSet, data_set
-from recalib.laboratory.plausibility.fault_words import in_words, without_shift
 from recalib.laboratory.plausibility.knowledge import check_distances, frames_of, mistake_in
 from recalib.laboratory.plausibility.mistakes import check_nominal
+from recalib.laboratory.report.doubts import fault_in_words
 from recalib.laboratory.report.summary import summary
-from recalib.laboratory.results import Results
+from recalib.laboratory.results import Results, without_shift
 from recalib.laboratory.tables.columns import SOCKETS, TARGETS, TIMES
 from recalib.laboratory.tables.description import Description, read_description
 from recalib.laboratory.tables.measurements import Measurements, check_measured, read_measurements
@@ -185,7 +185,8 @@ def identified(
     try:
         validation = validate(arm, observations, frames, on_progress)
     except Untrustworthy as error:
-        reasons = [in_words(fault, data, frames) for fault in without_shift(error.faults, mistake)]
+        found = without_shift(error.faults, mistake)
+        reasons = [fault_in_words(fault, data, frames) for fault in found]
         reasons += [f"likely: {mistake}"] if mistake else []
         reasons += data.doubts
         ranges = data.rows_of_sights if len(data.tables) > 1 else []

@@ -10,7 +10,6 @@ from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.plausibility.knowledge import WrongKnowledge
 from recalib.laboratory.propose import propose
-from recalib.laboratory.report.identified import identified_parameters
 from recalib.laboratory.report.summary import summary
 from tests.arms import SCARA
 from tests.laboratory.conftest import (
@@ -120,7 +119,7 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     text = summary(result)
     assert "errors are those in the sockets" in text and "the instrument" not in text
     assert [place.name for place in result.places] == ["the target", "socket left", "socket right"]
-    names = [row["name"] for row in identified_parameters(result)]
+    names = [row["name"] for row in result.identified]
     assert "x of socket left, from its initial estimate" in names and "socket 1" not in str(names)
     with pytest.raises(InvalidSetting, match="candidates is missing; expected: postures in which"):
         propose(result.correction, 3)

@@ -1,6 +1,7 @@
 """What makes a calibration doubtful stands in its first line."""
 
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -42,6 +43,7 @@ def result(
         validation=validation,
         faults=found,
         data=DataSet(Observations(np.zeros((ROWS, 6)), times=times)),
+        parameters=parameters_of(MODEL, estimate),
         frames=Frames(),
         geometry=geometry,
         scales={},
@@ -50,7 +52,7 @@ def result(
         displaced=[],
         exchanged=None,
         unseen=0,
-        unidentifiable=[],
+        directions=[],
     )
 
 
@@ -98,7 +100,9 @@ def test_outliers_with_one_cause_are_told_by_their_rows():
     found = result({}, GEOMETRIC)
     found.displaced = [Displaced(20, 34, 5e-3, np.radians(0.2))]
     found.exchanged = Exchanged(np.array([10, 11]), np.array([11, 10]))
-    elsewhere, order = doubts(found)
+    found.data = replace(found.data, doubts=["the lens of camera left is doubtful"])
+    lens, elsewhere, order = doubts(found)
+    assert lens == "Careful: the lens of camera left is doubtful."
     assert "in rows 21 to 35 instrument or base seem to have stood 5 mm and 0.2 deg" in elsewhere
     assert "the measurements of rows 11 and 12 fit the joints of rows 12 and 11" in order
     found.exchanged = Exchanged(np.arange(10), np.roll(np.arange(10), 1))

@@ -1,7 +1,6 @@
 """The lens by pictures: whatever it is, it is found; and it is blamed if it is another."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +9,6 @@ from scipy.spatial.transform import Rotation
 from recalib import load_arm
 from recalib.laboratory.pictures.sessions import Cell as Cameras
 from recalib.laboratory.pictures.sessions import calibrate_pictures, read_folders
-from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import verdict
 from recalib.laboratory.tables.description import Description
 from recalib.vision import lens_search
@@ -118,12 +116,9 @@ def test_a_lens_that_is_not_mild_is_found_and_the_arm_is_not_blamed(wide):
 def test_a_given_lens_that_leaves_much_more_than_another_is_doubted_before_the_arm(wide):
     (cell, observed), arm = wide, load_arm("panda.urdf", "panda_link8")
     near = replace(cell.lens, distortion=cell.lens.distortion * [1, 1, 1, 1, 0.9])
-    cameras = Cameras.read([observed(near)], arm)
-    (doubt,) = cameras.doubts
+    (doubt,) = Cameras.read([observed(near)], arm).doubts
     assert doubt.startswith("the given lens has a reprojection error of")
     assert not Cameras.read([observed(cell.lens)], arm).doubts
-    result = SimpleNamespace(mistake=None, data=cameras)
-    assert next(doubts(result)) == f"Careful: {doubt}."
 
 
 def test_a_picture_out_of_focus_shows_the_markers_that_others_lead_to():

@@ -13,7 +13,6 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
 from recalib.laboratory.correction import NAME, Correction
 from recalib.laboratory.places import Place
 from recalib.laboratory.report.hand_eye import hand_eye
-from recalib.laboratory.report.identified import identified_parameters
 from recalib.laboratory.report.summary import DOING, errors_table, summary, verdict
 from recalib.laboratory.results import Results
 from recalib.laboratory.tables.columns import (
@@ -77,7 +76,7 @@ def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]
 
 def _calibration(result: Results) -> dict[str, bytes]:
     geometry, (urdf, tool), data = result.geometry, result.corrected, result.data
-    parameters = identified_parameters(result)
+    parameters = result.identified
     frames = geometry.frames
     bases = dict(zip(data.instruments, frames.bases.tolist(), strict=True))
     offsets = [row for row in parameters if row["name"].startswith("offset of ")]

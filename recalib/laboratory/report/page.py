@@ -1,7 +1,6 @@
 """The HTML page of a calibration: one file that loads nothing else."""
 
 from recalib.laboratory.report.drawings import COLOURS, draw_arm, draw_errors, draw_over_joints
-from recalib.laboratory.report.identified import identified_parameters
 from recalib.laboratory.report.summary import errors_table, notes, verdict
 from recalib.laboratory.report.templates import render
 from recalib.laboratory.results import Results
@@ -11,7 +10,7 @@ LISTED = 15  # parameters, the most certain first
 
 def page_of(result: Results) -> bytes:
     """The page of a calibration."""
-    parameters = identified_parameters(result)
+    parameters = result.identified
     decided = [parameter for parameter in parameters if parameter["decided_by"] == "data"]
     decided.sort(key=lambda parameter: -abs(parameter["value"]) / parameter["deviation"])
     arm_drawing, longer = draw_arm(result)

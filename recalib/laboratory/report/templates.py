@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from recalib.spelling import listed
+
 UNITS = (1e3, "mm"), (180 / np.pi, "deg")
 
 
@@ -18,6 +20,11 @@ def in_units(numbers: np.ndarray | tuple[float, ...], digits: int) -> str:
 def quoted(text: str) -> str:
     """A text as TOML has it."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def short(number: float) -> str:
+    """Two digits, and no power of ten where people write none: 100, not 1e+02."""
+    return f"{float(f'{number:.2g}'):g}"
 
 
 def render(template: str, **values: Any) -> str:
@@ -34,6 +41,8 @@ def render(template: str, **values: Any) -> str:
         "mm": lambda length: f"{1e3 * length:.3g} mm",
         "degrees": np.degrees,
         "in_units": in_units,
+        "listed": lambda words, last: listed(map(str, words), last),
+        "short": short,
         "quoted": quoted,
     }
     return environment.get_template(template).render(values)
