@@ -9,7 +9,7 @@ kinematics make the joint coordinates that take the real arm to the desired pose
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -23,7 +23,7 @@ from recalib.files.storage import read_file, whole
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.poses import outside_of
 from recalib.identification.model.error_model import by_sight
-from recalib.laboratory.reaching import Goals, Reached, reach
+from recalib.laboratory.reaching import TOLERANCE, Goals, poses_at, reach
 from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.poses import orientation_error, position_error
@@ -114,7 +114,8 @@ class Correction:
         found = self._reach(goals)
         turned = np.zeros(len(found))
         if goals.poses.ndim == 3:
-            turned = orientation_error(goals.forward(self.calibration, found), goals.poses)
+            reached = poses_at(self.calibration, found, goals.targets)
+            turned = orientation_error(reached, goals.poses)
         low, high = self.postures.min(axis=0), self.postures.max(axis=0)
         outside = np.maximum(low - found, found - high)
         beyond = np.where(outside > MARGIN * (high - low), outside, 0.0)
@@ -139,10 +140,6 @@ class Correction:
         """
         joints: np.ndarray = self._reach(self._goals(pose, near, target, frame))[0]
         return joints
-
-    def solve(self, goals: Goals) -> Reached:
-        """Joint coordinates for poses in the base, reached or not."""
-        return reach(self.calibration, self.postures, goals)
 
     @cached_property
     def postures(self) -> np.ndarray:
@@ -172,13 +169,9 @@ class Correction:
         if not self.urdf:
             valid = "the file of the arm: only what was calibrated with it can be saved"
             raise InvalidSetting("urdf", None, valid)
-        header = {
-            "format": FORMAT[0],
-            "version": FORMAT[1],
-            "tool": self.arm.tool,
-            "base": self.arm.base,
-            "targets": self.targets,
-        }
+        form, version = FORMAT
+        arm = {"tool": self.arm.tool, "base": self.arm.base, "targets": self.targets}
+        header = {"format": form, "version": version, **arm}
         urdf = np.frombuffer(self.urdf, dtype=np.uint8)  # in whichever encoding it is
         state = {"urdf": urdf, "learned": self.learned, "calibration": self.calibration.state()}
         return archive_of(header, state)
@@ -239,20 +232,20 @@ class Correction:
         if len(names) not in (1, len(goals)):
             raise InvalidSetting("target", f"{len(names)} names", f"one, or {len(goals)}")
         numbers = np.array([self.targets.index(name) for name in names])
-        return goals.of_targets(np.resize(numbers, len(goals)))
+        return replace(goals, targets=np.resize(numbers, len(goals)))
 
     def _reach(self, goals: Goals) -> np.ndarray:
         """Joint coordinates (n, joints) that reach the goals. Raises NotReached."""
-        found = self.solve(goals)
+        found = reach(self.calibration, self.postures, goals)
         if found.reached.all():
             return found.joints
         rows = np.flatnonzero(~found.reached)
-        first = rows[:1]
-        if not found.solved[first]:
-            (pose,) = goals[first].forward(self.calibration, found.joints[first])
-            gap = _gap(pose, goals[first].reachable(self.arm).poses[0])
+        goal, joints = goals[rows[:1]], found.joints[rows[0]]
+        if found.errors[rows[0]] > TOLERANCE:
+            (pose,) = poses_at(self.calibration, joints[None], goal.targets)
+            gap = _gap(pose, goal.reachable(self.arm).poses[0])
             raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
-        (low, high), joints = self.arm.coupling.limits, found.joints[rows[0]]
+        low, high = self.arm.coupling.limits
         names = listed(np.array(self.arm.coupling.columns)[(joints < low) | (joints > high)], "and")
         raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
 
@@ -260,8 +253,8 @@ class Correction:
         """How far goals are from the poses that were measured: (n, 2) m and rad."""
         far = np.zeros((len(goals), 2))
         for target, rows in by_sight(goals.targets, len(goals)):
-            targets = None if goals.targets is None else np.full(len(self.postures), target)
-            known = Goals(self.postures, None, targets).forward(self.calibration, self.postures)
+            number = None if goals.targets is None else target
+            known = poses_at(self.calibration, self.postures, number)
             far[rows] = outside_of(known, goals.poses[rows])
         return far
 
@@ -271,15 +264,10 @@ class Correction:
         if near is None or len(self.targets) > 1 or len(self.calibration.frames.sockets):
             return
         frame = BASE if goals.targets is None else INSTRUMENT
-        joints = self.arm.coupling.joints(near)
-        ends = {
-            BASE: self.calibration.forward(joints),
-            INSTRUMENT: self.calibration.predict(joints),
-        }
-        gaps = {
-            name: np.median(np.linalg.norm(poses[:, :3, 3] - places, axis=1))
-            for name, poses in ends.items()
-        }
+        gaps = {}
+        for name, target in ((BASE, None), (INSTRUMENT, 0)):
+            off = poses_at(self.calibration, near, target)[:, :3, 3] - places
+            gaps[name] = np.median(np.linalg.norm(off, axis=1))
         (other,) = gaps.keys() - {frame}
         if gaps[other] < min(NEAR, BETTER * gaps[frame]) and gaps[frame] > NEAR:
             raise InvalidSetting(

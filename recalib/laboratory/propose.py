@@ -12,7 +12,7 @@ import numpy as np
 from recalib.errors import InvalidSetting, RecalibError
 from recalib.identification.design import most_informative
 from recalib.laboratory.correction import Correction
-from recalib.laboratory.reaching import Goals
+from recalib.laboratory.reaching import Goals, reach
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 from recalib.spelling import counted
@@ -106,7 +106,7 @@ def joint_limits(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
 def _useful(correction: Correction, candidates: np.ndarray | Goals) -> np.ndarray:
     """Candidates (n, columns) within reach, and off the ends of joint ranges."""
     if isinstance(candidates, Goals):
-        solved = correction.solve(candidates)
+        solved = reach(correction.calibration, correction.postures, candidates)
         found, reached = solved.joints, solved.reached
     else:
         found, reached = candidates, np.ones(len(candidates), dtype=bool)

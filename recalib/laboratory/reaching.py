@@ -59,21 +59,10 @@ class Goals:
         """(n, 3) m."""
         return self.poses if self.poses.ndim == 2 else self.poses[:, :3, 3]
 
-    def of_targets(self, targets: np.ndarray) -> "Goals":
-        """The same as poses of targets (n,) in the instrument's frame."""
-        return replace(self, targets=targets)
-
     def reachable(self, arm: Arm) -> "Goals":
         """What an arm reaches: of poses, with fewer than six joints, positions."""
         few = len(arm.coupling.columns) < 6
         return replace(self, poses=self.positions) if few else self
-
-    def forward(self, calibration: Calibration, joints: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) [m] that joints (n, columns) give of what is desired."""
-        joints = calibration.model.nominal.coupling.joints(joints)
-        if self.targets is None:
-            return calibration.forward(joints)
-        return calibration.predict(joints, self.targets)
 
 
 @dataclass(frozen=True)
@@ -90,10 +79,15 @@ class Reached:
     errors: np.ndarray
     reached: np.ndarray
 
-    @property
-    def solved(self) -> np.ndarray:
-        """(n,) whether a pose is reached, within limits or beyond."""
-        return self.errors <= TOLERANCE
+
+def poses_at(
+    calibration: Calibration, joints: np.ndarray, targets: np.ndarray | int | None
+) -> np.ndarray:
+    """Poses (n, 4, 4) [m] at joints (n, columns) of targets, by their numbers, or of the tool."""
+    every = calibration.model.nominal.coupling.joints(joints)
+    if targets is None:
+        return calibration.forward(every)
+    return calibration.predict(every, np.broadcast_to(targets, len(every)))
 
 
 def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reached:
@@ -127,13 +121,10 @@ def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> lis
     count, dimensions = min(STARTS, len(learned)), goals.poses.ndim
     found = np.empty((count, len(goals), learned.shape[1]))
     for target, rows in by_sight(goals.targets, len(goals)):
-        same = None if goals.targets is None else np.full(len(learned), target)
-        poses = Goals(learned, None, same).forward(calibration, learned)
-        tree, wanted = (
-            KDTree(_features(poses, dimensions)),
-            _features(goals.poses[rows], dimensions),
-        )
-        found[:, rows] = learned[tree.query(wanted, k=range(1, 1 + count))[1].T]
+        poses = poses_at(calibration, learned, None if goals.targets is None else target)
+        wanted = _features(goals.poses[rows], dimensions)
+        nearest = KDTree(_features(poses, dimensions)).query(wanted, k=range(1, 1 + count))[1]
+        found[:, rows] = learned[nearest.T]
     return list(found)
 
 
