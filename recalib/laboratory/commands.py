@@ -14,7 +14,7 @@ from recalib.files.outputs import check_new, write_new
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
-from recalib.laboratory.hand_eye.conventions import convention_of
+from recalib.laboratory.hand_eye.pose_table import convention_of
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals

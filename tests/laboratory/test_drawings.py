@@ -5,7 +5,7 @@ import re
 import pytest
 
 from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.report.drawings import _errors, draw_arm, draw_errors, draw_over_joints
+from recalib.laboratory.report.page import _errors, draw_arm, draw_errors, draw_over_joints
 
 
 @pytest.fixture(scope="module")

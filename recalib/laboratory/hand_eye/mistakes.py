@@ -15,8 +15,7 @@ import numpy as np
 
 from recalib.errors import RecalibError
 from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
-from recalib.laboratory.hand_eye.conventions import other_readings
-from recalib.laboratory.hand_eye.pose_table import PoseTable
+from recalib.laboratory.hand_eye.pose_table import PoseTable, other_readings
 from recalib.laboratory.plausibility.mistakes import UNITS
 from recalib.spelling import counted
 

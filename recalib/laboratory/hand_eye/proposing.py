@@ -16,8 +16,8 @@ from recalib.errors import InvalidFile
 from recalib.files.toml import read_toml
 from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, information
 from recalib.identification.model.linearisation import LEVER
+from recalib.laboratory.hand_eye.calibrating import HAND_EYE, POSES
 from recalib.laboratory.hand_eye.pose_table import read_poses
-from recalib.laboratory.hand_eye.results import HAND_EYE, POSES
 from recalib.laboratory.live.allowed import Box
 from recalib.laboratory.pictures.observed import IN_HAND, LENS, SETUP
 from recalib.laboratory.propose import NoUsefulPosture
