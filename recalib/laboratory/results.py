@@ -134,21 +134,16 @@ class Results:
     def places(self) -> list[Place]:
         """Poses of instruments, targets and sockets that were not given."""
         tool = self.arm.tool if self.urdf is None else self.corrected[1]
-        by_geometry = self.places_by(self.geometry, self.unidentifiable, tool)
+        data = self.data
+        names = data.target_names, data.sockets, tool, data.instruments
+        by_geometry = found_places(self.geometry, self.unidentifiable, *names)
         if self.worthwhile:
             return by_geometry
         # an arm that looks right may still have an offset that is not identifiable
-        by_nominal = self.places_by(self.calibration, [], self.arm.tool)
+        names = data.target_names, data.sockets, self.arm.tool, data.instruments
+        by_nominal = found_places(self.calibration, [], *names)
         pairs = zip(by_nominal, by_geometry, strict=True)
         return [replace(one, real_deviations=other.real_deviations) for one, other in pairs]
-
-    def places_by(
-        self, calibration: Calibration, unidentifiable: Sequence[Unidentifiable], tool: str
-    ) -> list[Place]:
-        """The same by another calibration; see `found_places`."""
-        data = self.data
-        names = data.target_names, data.sockets, tool, data.instruments
-        return found_places(calibration, unidentifiable, *names)
 
     @cached_property
     def unidentifiable(self) -> list[Unidentifiable]:

@@ -27,25 +27,15 @@ def kinematics_yaml(calibration: Calibration) -> str | None:
     Errors beyond the last joint are not among them.
     """
     nominal = calibration.model.nominal
-    pattern = _pattern(nominal)
-    if pattern is None:
+    if (pattern := _pattern(nominal)) is None:
         return None
-    frames = _frames(nominal.model)
     # poses of the pattern's frames relative to the joints' own, with the base first
-    relative = [
-        pattern[0],
-        *(np.linalg.inv(own) @ dh for own, dh in zip(frames, pattern[1:], strict=True)),
-    ]
+    relative = np.linalg.inv([np.eye(4), *_frames(nominal.model)]) @ pattern
     corrected = calibration.model.own_arm(calibration.estimate.parameters).model
-    origins = {
-        link: np.linalg.inv(relative[index])
-        @ corrected.jointPlacements[index + 1].homogeneous
-        @ offset
-        @ relative[index + 1]
-        for index, (link, offset) in enumerate(zip(LINKS, offset_poses(calibration), strict=True))
-    }
+    placements = [placement.homogeneous for placement in corrected.jointPlacements[1:]]
+    origins = np.linalg.inv(relative[:-1]) @ placements @ offset_poses(calibration) @ relative[1:]
     lines = ["kinematics:"]
-    for link, origin in origins.items():
+    for link, origin in zip(LINKS, origins, strict=True):
         numbers = zip(_NUMBERS, [*origin[:3, 3], *angles_of(origin)], strict=True)
         lines += [f"  {link}:", *(f"    {name}: {number:.17g}" for name, number in numbers)]
     digest = hashlib.sha256("\n".join(lines).encode()).hexdigest()
@@ -56,7 +46,7 @@ def _frames(model: pin.Model) -> list[np.ndarray]:
     """Poses (4, 4) of the joints' frames in the base with all joints at zero."""
     data = model.createData()
     pin.forwardKinematics(model, data, np.zeros(model.nq))
-    return [placement.homogeneous for placement in list(data.oMi)[1:]]
+    return [placement.homogeneous for placement in data.oMi[1:]]
 
 
 def _pattern(arm: Arm) -> list[np.ndarray] | None:
