@@ -25,6 +25,11 @@ from recalib.laboratory.tables.measurements import TURNS
 from recalib.laboratory.tables.table import MOST, Table, table_of
 from recalib.spelling import listed
 
+NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions, and of matrices
+SKEW = 0.02  # of a norm, as people round them
+_BETWEEN = re.compile(r"[\s,;]+")
+_COMMENT = re.compile(r"^\s*(#|%|//).*\n?", re.MULTILINE)
+_LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # e is in 1e-3
 _ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler's angles; no axis twice in a row
 
 
@@ -66,6 +71,7 @@ CONVENTIONS = {
     "staubli": _euler("XYZ", "rx", "ry", "rz"),
     "matrix": Convention(MATRIX, lambda rows: Rotation.from_matrix(rows.reshape(-1, 3, 3)), "m"),
 }
+POSE = (*MATRIX[:3], "x", *MATRIX[3:6], "y", *MATRIX[6:], "z", *(f"last {n}" for n in range(4)))
 # without a convention, the headings of a table say what they are
 OWN = (
     *(Convention(columns.headings, turns) for columns, turns in TURNS.items()),
@@ -99,14 +105,6 @@ def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
             for order in ("ZYX", "xyz", "XYZ", "ZYZ", "ZXZ"):
                 axes = f"{'moving' if order.isupper() else 'fixed'} axes {', '.join(order.lower())}"
                 yield f"angles about the {axes}{unit}", Rotation.from_euler(order, scale * numbers)
-
-
-NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions, and of matrices
-SKEW = 0.02  # of a norm, as people round them
-POSE = (*MATRIX[:3], "x", *MATRIX[3:6], "y", *MATRIX[6:], "z", *(f"last {n}" for n in range(4)))
-_BETWEEN = re.compile(r"[\s,;]+")
-_COMMENT = re.compile(r"^\s*(#|%|//).*\n?", re.MULTILINE)
-_LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # e is in 1e-3
 
 
 @dataclass(frozen=True)
