@@ -18,10 +18,10 @@ from recalib.laboratory.hand_eye.pose_table import convention_of
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
-from recalib.laboratory.report.folder import files_of, postures_table
+from recalib.laboratory.report.folder import files_of
 from recalib.laboratory.report.templates import UNITS, render
 from recalib.laboratory.tables.columns import TARGETS
-from recalib.laboratory.tables.measurements import STILL, read_desired
+from recalib.laboratory.tables.measurements import STILL, postures_table, read_desired
 from recalib.laboratory.tables.table import read_table
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table

@@ -15,8 +15,8 @@ from recalib.laboratory.hand_eye.pose_table import PoseTable
 from recalib.laboratory.pictures.observe import observe, pictures_in
 from recalib.laboratory.pictures.observed import LENS, PICTURE, SETUP, Observed, views_of
 from recalib.laboratory.places import hand_eye_places
-from recalib.laboratory.report.folder import pose_rows
 from recalib.laboratory.report.templates import render
+from recalib.laboratory.tables.measurements import pose_rows
 from recalib.laboratory.tables.table import table_text
 from recalib.spelling import counted
 from recalib.vision.lens_search import moved_lens

@@ -4,7 +4,6 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-import cv2
 import numpy as np
 
 from recalib.errors import RecalibError
@@ -14,9 +13,9 @@ from recalib.laboratory.tables.columns import (
     NOMINAL,
     PICTURES,
     POSITIONS,
-    ROTATION_VECTORS,
     ROTATIONS,
 )
+from recalib.laboratory.tables.measurements import pose_rows
 from recalib.laboratory.tables.table import Table, table_text
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
@@ -153,14 +152,11 @@ class Observed:
         measured = {PICTURE, *(name for kind in vectors for name in kind.headings)}
         joints = [name for name in table.cells if name not in measured]
         units = [f"{name} [{table.units[name]}]" if table.units[name] else name for name in joints]
-        headings = [PICTURE, *units, *POSITIONS.written, *ROTATION_VECTORS.written]
-        for picture in self.used:
-            assert picture.pose is not None
-            pose = np.linalg.inv(picture.pose) if self.in_hand else picture.pose
-            turn = np.degrees(cv2.Rodrigues(pose[:3, :3])[0].ravel())
-            numbers = [f"{number:.6f}" for number in (*1e3 * pose[:3, 3], *turn)]
+        poses = np.array([picture.pose for picture in self.used])
+        rows = pose_rows(np.linalg.inv(poses) if self.in_hand else poses)
+        for picture, pose in zip(self.used, rows, strict=True):
             cells = [table.cells[name][picture.row - 1] for name in joints]
-            yield dict(zip(headings, [picture.name, *cells, *numbers], strict=True))
+            yield {PICTURE: picture.name} | dict(zip(units, cells, strict=True)) | pose
 
 
 def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str | None:

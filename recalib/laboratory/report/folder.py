@@ -1,4 +1,4 @@
-"""The files of a calibration, and tables of postures."""
+"""The files of a calibration."""
 
 import json
 from collections.abc import Iterator
@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
@@ -15,17 +14,9 @@ from recalib.laboratory.places import Place
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.summary import DOING, errors_table, summary, verdict
 from recalib.laboratory.results import Results
-from recalib.laboratory.tables.columns import (
-    FAKE_POSITIONS,
-    FAKE_ROTATIONS,
-    POSITIONS,
-    ROTATION_VECTORS,
-)
-from recalib.laboratory.tables.measurements import joint_headings
 from recalib.laboratory.tables.table import table_text
 from recalib.laboratory.urdf.universal_robots import kinematics_yaml
 from recalib.nominal.arms import arm_of
-from recalib.nominal.kinematics import Arm
 
 URDF, HAND_EYE = "arm.urdf", "hand_eye.toml"
 PROBES, ROUNDING = 10, 1e-9  # random postures at which files are compared, to so much m and rad
@@ -50,28 +41,6 @@ def files_of(result: Results) -> dict[str, bytes]:
         files[HAND_EYE] = hand_eye(result).encode()
         files |= lens_files(optics)
     return files
-
-
-def postures_table(arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool = False) -> bytes:
-    """Joint coordinates (n, columns) and poses (n, 4, 4) in the columns that we read.
-
-    Args:
-        fake: the poses are commands, in columns that `read_desired` refuses: they would be
-            corrected twice.
-    """
-    scales = [1e3 if slides else 180 / np.pi for slides in arm.coupling.slides]
-    texts = [[f"{number:.9f}" for number in row] for row in joints * scales]
-    own = (dict(zip(joint_headings(arm), row, strict=True)) for row in texts)
-    return table_text(row | pose for row, pose in zip(own, pose_rows(poses, fake), strict=True))
-
-
-def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]:
-    """The cells of poses (n, 4, 4) [m] by their headings; see `postures_table`."""
-    kinds = (FAKE_POSITIONS, FAKE_ROTATIONS) if fake else (POSITIONS, ROTATION_VECTORS)
-    headings = [heading for kind in kinds for heading in kind.written]
-    turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
-    for row in np.concatenate([1e3 * poses[:, :3, 3], turns], axis=1):
-        yield dict(zip(headings, (f"{number:.9f}" for number in row), strict=True))
 
 
 def _calibration(result: Results) -> dict[str, bytes]:
