@@ -8,13 +8,7 @@ import numpy as np
 
 from recalib.errors import RecalibError
 from recalib.laboratory.report.templates import render
-from recalib.laboratory.tables.columns import (
-    ERRORS,
-    NOMINAL,
-    PICTURES,
-    POSITIONS,
-    ROTATIONS,
-)
+from recalib.laboratory.tables.columns import ERRORS, NOMINAL, PICTURES, POSITIONS, ROTATIONS
 from recalib.laboratory.tables.measurements import pose_rows
 from recalib.laboratory.tables.table import Table, table_text
 from recalib.vision.boards import Board
