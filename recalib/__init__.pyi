@@ -38,12 +38,12 @@ from .laboratory.calibrate import calibrate as calibrate
 from .laboratory.calibrate import calibrate_arm as calibrate_arm
 from .laboratory.correction import Commands as Commands
 from .laboratory.correction import Correction as Correction
-from .laboratory.correction import NotReached as NotReached
 from .laboratory.correction import load_correction as load_correction
 from .laboratory.live.session import Answer as Answer
 from .laboratory.live.session import LiveSettings as LiveSettings
 from .laboratory.live.session import calibrate_live as calibrate_live
 from .laboratory.pictures.sessions import calibrate_pictures as calibrate_pictures
+from .laboratory.reaching import NotReached as NotReached
 from .laboratory.tables.description import Description as Description
 from .laboratory.tables.description import read_description as read_description
 from .learners.gaussian_process import GaussianProcessLearner as GaussianProcessLearner

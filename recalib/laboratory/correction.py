@@ -17,16 +17,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.errors import InvalidSetting, RecalibError, UnknownName
+from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.archives import MOST, archive_of, opened, refused
 from recalib.files.storage import read_file, whole
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.poses import outside_of
 from recalib.identification.model.error_model import by_sight
-from recalib.laboratory.reaching import TOLERANCE, Goals, poses_at, reach
+from recalib.laboratory.reaching import Goals, poses_at, reach_all
 from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import orientation_error
 from recalib.spelling import listed
 
 FORMAT, WRITER = ("recalib correction", 4), "recalib calibrate"
@@ -35,15 +35,6 @@ BASE, INSTRUMENT = FRAMES = "base", "instrument"  # in which poses are desired
 NEAR = 0.05  # m from a desired pose to where the joints given with it take the arm
 BETTER = 0.1  # the part of this distance that is left if the frame is the other one
 MARGIN = 0.05  # beyond the range learned from, as a part of it
-
-
-class NotReached(RecalibError):
-    """Desired poses that the arm cannot reach. Attributes: rows, counted from 1."""
-
-    def __init__(self, rows: Sequence[int], reason: str):
-        self.rows = [*rows]
-        others = f", and neither can {len(self.rows) - 1} more" if len(self.rows) > 1 else ""
-        super().__init__(f"row {self.rows[0]} cannot be reached{others}: {reason}")
 
 
 @dataclass(frozen=True)
@@ -111,7 +102,7 @@ class Correction:
         """
         goals = self._goals(poses, near, target, frame)
         self._check_frame(goals)
-        found = self._reach(goals)
+        found = reach_all(self.calibration, self.postures, goals)
         turned = np.zeros(len(found))
         if goals.poses.ndim == 3:
             reached = poses_at(self.calibration, found, goals.targets)
@@ -138,7 +129,8 @@ class Correction:
 
         Raises as `correct`.
         """
-        joints: np.ndarray = self._reach(self._goals(pose, near, target, frame))[0]
+        goals = self._goals(pose, near, target, frame)
+        joints: np.ndarray = reach_all(self.calibration, self.postures, goals)[0]
         return joints
 
     @cached_property
@@ -234,21 +226,6 @@ class Correction:
         numbers = np.array([self.targets.index(name) for name in names])
         return replace(goals, targets=np.resize(numbers, len(goals)))
 
-    def _reach(self, goals: Goals) -> np.ndarray:
-        """Joint coordinates (n, joints) that reach the goals. Raises NotReached."""
-        found = reach(self.calibration, self.postures, goals)
-        if found.reached.all():
-            return found.joints
-        rows = np.flatnonzero(~found.reached)
-        goal, joints = goals[rows[:1]], found.joints[rows[0]]
-        if found.errors[rows[0]] > TOLERANCE:
-            (pose,) = poses_at(self.calibration, joints[None], goal.targets)
-            gap = _gap(pose, goal.reachable(self.arm).poses[0])
-            raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
-        low, high = self.arm.coupling.limits
-        names = listed(np.array(self.arm.coupling.columns)[(joints < low) | (joints > high)], "and")
-        raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
-
     def _outside(self, goals: Goals) -> np.ndarray:
         """How far goals are from the poses that were measured: (n, 2) m and rad."""
         far = np.zeros((len(goals), 2))
@@ -305,11 +282,3 @@ def load_correction(path: str | PathLike[str]) -> Correction:
     """
     file = Path(path) if Path(path).is_file() else Path(path, NAME)
     return Correction.from_archive(read_file(file, MOST), file)
-
-
-def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
-    """How far a pose (4, 4) is from a desired pose or position, in words."""
-    if goal.ndim == 1:
-        return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
-    position, orientation = position_error(pose, goal), orientation_error(pose, goal)
-    return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"

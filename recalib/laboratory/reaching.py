@@ -1,5 +1,6 @@
 """Inverse kinematics of a calibrated arm, from postures in which it was measured."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -7,15 +8,27 @@ from numpy.typing import ArrayLike
 from scipy.spatial import KDTree
 
 from recalib.arrays import array_of, check_rotations
+from recalib.errors import RecalibError
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
+from recalib.nominal.poses import orientation_error, position_error
+from recalib.spelling import listed
 
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
 STARTS = 6  # learned postures to start from, if none is given
+
+
+class NotReached(RecalibError):
+    """Desired poses that the arm cannot reach. Attributes: rows, counted from 1."""
+
+    def __init__(self, rows: Sequence[int], reason: str):
+        self.rows = [*rows]
+        others = f", and neither can {len(self.rows) - 1} more" if len(self.rows) > 1 else ""
+        super().__init__(f"row {self.rows[0]} cannot be reached{others}: {reason}")
 
 
 @dataclass(frozen=True)
@@ -114,6 +127,33 @@ def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reache
         found[rows[better]], errors[rows[better]] = tried[better], remaining[better]
         reached[rows] = within
     return Reached(found, errors, reached)
+
+
+def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np.ndarray:
+    """Joint coordinates (n, columns) [rad, m] that reach all goals; see `reach`.
+
+    Raises NotReached.
+    """
+    found, arm = reach(calibration, learned, goals), calibration.model.nominal
+    if found.reached.all():
+        return found.joints
+    rows = np.flatnonzero(~found.reached)
+    goal, joints = goals[rows[:1]], found.joints[rows[0]]
+    if found.errors[rows[0]] > TOLERANCE:
+        (pose,) = poses_at(calibration, joints[None], goal.targets)
+        gap = _gap(pose, goal.reachable(arm).poses[0])
+        raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
+    low, high = arm.coupling.limits
+    names = listed(np.array(arm.coupling.columns)[(joints < low) | (joints > high)], "and")
+    raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
+
+
+def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
+    """How far a pose (4, 4) is from a desired pose or position, in words."""
+    if goal.ndim == 1:
+        return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
+    position, orientation = position_error(pose, goal), orientation_error(pose, goal)
+    return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"
 
 
 def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> list[np.ndarray]:
