@@ -9,7 +9,7 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from recalib.errors import InvalidFile, UnknownName
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER
@@ -113,14 +113,14 @@ class PoseTable:
 
     Attributes:
         table: the file's cells.
-        positions, rotations: (n, 3) m and (n, 3, 3).
+        positions, rotations: (n, 3) m and n rotations.
         turns: (n, k) rad or 1, the numbers of the rotations.
         inverted: whether poses are wanted in the other direction.
     """
 
     table: Table
     positions: np.ndarray
-    rotations: np.ndarray
+    rotations: Rotation
     turns: np.ndarray
     inverted: bool = False
 
@@ -134,8 +134,7 @@ class PoseTable:
     @property
     def poses(self) -> np.ndarray:
         """(n, 4, 4) m."""
-        poses = np.tile(np.eye(4), (len(self), 1, 1))
-        poses[:, :3, :3], poses[:, :3, 3] = self.rotations, self.positions
+        poses = RigidTransform.from_components(self.positions, self.rotations).as_matrix()
         return np.linalg.inv(poses) if self.inverted else poses
 
 
@@ -175,7 +174,7 @@ def read_poses(
             path, f"the rotation in row {off.argmax() + 1} {found}; expected: {valid:.3g}"
         )
     try:
-        rotations = way.turns(turns).as_matrix()
+        rotations = way.turns(turns)
     except ValueError as error:  # of SciPy: a mirrored matrix
         raise InvalidFile(path, f"it has a matrix that is not a rotation: {error}") from None
     return PoseTable(table, arrays["positions"], rotations, turns, inverted)

@@ -91,6 +91,4 @@ def _on_one_axis(frame: np.ndarray, axis: np.ndarray, other: np.ndarray) -> bool
 
 
 def _pose(x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0) -> np.ndarray:
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = pin.rpy.rpyToMatrix(roll, 0.0, 0.0), (x, y, z)
-    return pose
+    return pin.SE3(pin.rpy.rpyToMatrix(roll, 0.0, 0.0), np.array([x, y, z])).homogeneous
