@@ -13,8 +13,7 @@ import yaml
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import LENGTH
-from recalib.files.storage import read_file
-from recalib.files.toml import read_toml
+from recalib.files.storage import read_file, read_toml
 from recalib.spelling import listed
 
 CHARUCO, APRILTAG, APRILGRID, CHESSBOARD, CIRCLES = KINDS = (

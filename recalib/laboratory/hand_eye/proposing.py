@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
 from recalib.files.archives import refused
-from recalib.files.toml import read_toml
+from recalib.files.storage import read_toml
 from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, information
 from recalib.identification.model.linearisation import LEVER
 from recalib.laboratory.hand_eye.calibrating import HAND_EYE, POSES
