@@ -128,7 +128,7 @@ def correct(options: Options) -> int:
     commands = correction.correct(poses, rows.joints, names, frame)
     table = postures_table(arm, commands.joints, commands.poses, fake=True)
     write_new(options.out, table, ".csv")
-    values = {"correction": correction, "commands": commands, "counted": counted, "most": TURNED}
+    values = {"correction": correction, "commands": commands, "most": TURNED}
     values["ends"] = correction.unidentifiable_ends if frame == BASE else None
     values["turned"] = np.degrees(commands.turned)
     values["beyond"] = _beyond(correction, commands) if commands.beyond.any() else None

@@ -12,7 +12,6 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RAND
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.templates import render
 from recalib.laboratory.results import Results
-from recalib.spelling import counted
 
 RESIZED = 0.015  # of a size: all links together are seldom so much longer
 TOGETHER = 0.3  # the part of residuals that remains if one factor for all links explains them
@@ -40,7 +39,6 @@ def doubts(result: Results) -> Iterator[str]:
         contradicted=_contradicted(result),
         most=MOST,
         named=NAMED,
-        counted=counted,
     )
     for line in lines.splitlines():
         yield f"Careful: {line}."

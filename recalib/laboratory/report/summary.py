@@ -107,9 +107,8 @@ def notes(result: Results) -> list[str]:
 
 def _facts(result: Results) -> dict[str, object]:
     """What the templates name."""
-    data, lasting = result.data, [one for one in result.directions if one[0].lasting]
-    anywhere = []
-    for one, words in lasting:
+    data, anywhere = result.data, []
+    for one, words in (pair for pair in result.directions if pair[0].lasting):
         if result.geometry.model.free[one.parameter]:
             anywhere.append(words + "; try: describe [target]" * (len(data.tables) < 2))
         elif words.startswith("offset"):
@@ -122,13 +121,9 @@ def _facts(result: Results) -> dict[str, object]:
         "most": MOST,
         "files": names[0] if len(names) == 1 else names and f"{len(names)} folders",
         "fit": corrected,
-        "postures": result.validation.postures,
-        "cameras": [*_cameras(result)] if data.observations.optics else [],
-        "open_here": [words for one, words in result.directions if not one.lasting],
+        "cameras": [*_cameras(result)] if data.observations.optics is not None else [],
         "open_anywhere": anywhere,
-        "held": len(lasting),
         "joints": [*_joints(result)],
-        "counted": counted,
     }
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from recalib.spelling import listed
+from recalib.spelling import counted, listed
 
 UNITS = (1e3, "mm"), (180 / np.pi, "deg")
 
@@ -37,6 +37,7 @@ def render(template: str, **values: Any) -> str:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
+    environment.globals["counted"] = counted
     environment.filters |= {
         "mm": lambda length: f"{1e3 * length:.3g} mm",
         "degrees": np.degrees,
