@@ -58,7 +58,7 @@ def fault_in_words(fault: Fault, data: DataSet, frames: Frames) -> str:
         sockets=in_sockets,
         timed=observations.times is not None,
         rows=np.count_nonzero(series == series[observations.targets == sight][0]),
-    ).replace("\n", "")
+    )
 
 
 def _outvoted(result: Results) -> Iterator[tuple[str, int, int]]:

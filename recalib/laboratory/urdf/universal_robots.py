@@ -6,6 +6,7 @@ arm. So parallel axes move no frame far away.
 """
 
 import hashlib
+from itertools import accumulate
 
 import numpy as np
 import pinocchio as pin
@@ -73,9 +74,7 @@ def _pattern(arm: Arm) -> list[np.ndarray] | None:
         _pose(y=three[2] - lift[2], roll=np.pi / 2),
         _pose(y=two[1] - end[1], roll=-np.pi / 2),
     ]
-    pattern = [turned]
-    for length in lengths:
-        pattern.append(pattern[-1] @ length)
+    pattern = [*accumulate([turned, *lengths], np.matmul)]
     alike = all(
         _on_one_axis(frame, axis, dh)
         for frame, axis, dh in zip(_frames(arm.model), arm.axes, pattern[1:], strict=True)
