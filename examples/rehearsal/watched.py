@@ -18,13 +18,11 @@ import rerun.blueprint as rrb
 
 from recalib import Arm, LiveSettings, Observations, calibrate_live, load_arm
 from recalib.laboratory.live.running import RunningCalibration
-from recalib.laboratory.scene import link_placements, log_meshes, send_frame
+from recalib.laboratory.scene import ARM, GREY, ROW, THICK, log_meshes, send_arm
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.shapes import load_shapes
 from recalib.station.opening import open_station
 
-ARM, ROW = "arm", "row"
-THICK, GREY = 0.003, (120, 120, 120)  # m
 SURE, UNSURE = np.array([0, 114, 178]), np.array([213, 94, 0])
 PANELS = rrb.Blueprint(
     rrb.Vertical(
@@ -50,11 +48,7 @@ class LiveView:
     def show(self, rows: Observations, running: RunningCalibration) -> None:
         rec, clock = self._rec, [rr.TimeColumn(ROW, sequence=[len(rows)])]
         rec.set_time(ROW, sequence=len(rows))
-        for link, poses in link_placements(self._arm, self._visuals, rows.joints[-1:]).items():
-            send_frame(rec, f"{ARM}/{link}", f"{ARM}/{link}", clock, poses)
-        # the line along the arm is all there is where meshes are missing
-        line = self._arm.skeleton(rows.joints[-1:])
-        rec.log("line", rr.LineStrips3D(line, radii=THICK, colors=GREY))
+        send_arm(rec, self._arm, self._visuals, clock, rows.joints[-1:])
         if not running.is_ready(rows):
             return
         base = np.linalg.inv(running.calibration(rows).frames.base)

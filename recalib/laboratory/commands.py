@@ -32,7 +32,7 @@ Options = argparse.Namespace
 
 
 def _load(module: str, name: str) -> Any:
-    """A function that needs an optional package: Matplotlib or OpenCV."""
+    """A function that needs an optional package: Matplotlib, Rerun or OpenCV."""
     return getattr(import_module(f"recalib.{module}"), name)
 
 
@@ -64,10 +64,14 @@ def calibrate_rows(options: Options) -> int:
     else:
         result = calibrate_arm(options.urdf, paths[0], *settings)
     print_progress(f"files in {options.out}")
-    files = files_of(result) | {"page.html": page_of(result)}
+    files, remark = files_of(result) | {"page.html": page_of(result)}, ""
+    if options.recording:
+        recording, remark = _load("laboratory.report.recording", "recording_of")(result)
+        files |= {"recording.rrd": recording} if recording else {}
     write_new(options.out, files)
     print(result.summary(), end="")
     print(f"\n{options.out}: {', '.join(files)}")
+    print(remark, end="\n" * bool(remark))
     return DONE if result.worthwhile else NO_BETTER
 
 

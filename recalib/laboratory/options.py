@@ -61,6 +61,9 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         own.add("--tool", "tool link; needed only if the arm has several ends", _name)
         own.add("--base", "link whose frame poses are given in (default: the root)", _name)
         own.add("--description", "frames, columns and distances (TOML)", _path)
+        own.add_argument(
+            "--recording", action="store_true", help="also write recording.rrd, for rerun"
+        )
 
     own = add(
         "calibrate", "identify the arm's parameters from measurements", "calibration", _columns()

@@ -14,6 +14,8 @@ from recalib.nominal.kinematics import Arm
 from recalib.nominal.meshes import with_own_meshes
 
 WORLD = "tf#/"  # the frame that Rerun gives to the root of the entities
+ARM, ROW = "arm", "row"
+THICK, GREY = 0.003, (120, 120, 120)  # m
 
 
 def log_meshes(
@@ -52,6 +54,27 @@ def send_frame(
         child_frame=[frame] * len(poses),
     )
     rec.send_columns(entity, clock, transforms)
+
+
+def send_arm(
+    rec: rr.RecordingStream,
+    arm: Arm,
+    visuals: Iterable[str],
+    clock: list[rr.TimeColumn],
+    joints: np.ndarray,
+) -> None:
+    """Move the links that `log_meshes` found by joints (n, joints) [rad, m]; a line along the arm.
+
+    The line is all there is where meshes are missing.
+    """
+    for link, poses in link_placements(arm, visuals, joints).items():
+        send_frame(rec, f"{ARM}/{link}", f"{ARM}/{link}", clock, poses)
+    lines = rr.LineStrips3D.columns(
+        strips=[[line] for line in arm.skeleton(joints).tolist()],
+        radii=[THICK] * len(joints),
+        colors=[GREY] * len(joints),
+    )
+    rec.send_columns("line", clock, lines)
 
 
 def link_placements(

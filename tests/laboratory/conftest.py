@@ -83,7 +83,7 @@ def calibrated(arm, folder):
     write(folder / "measurements.csv", table(arm, joints, to_instrument(positions)))
     files = folder / "arm.urdf", folder / "measurements.csv"
     out = folder / "calibration"
-    assert main(["calibrate", *map(str, files), f"--out={out}"]) == DONE
+    assert main(["calibrate", *map(str, files), "--recording", f"--out={out}"]) == DONE
     return out
 
 

@@ -33,7 +33,7 @@ from tests.laboratory.conftest import (
 def test_a_calibration_is_a_folder_of_files(calibrated):
     files = {path.name for path in calibrated.iterdir()}
     expected = {"summary.txt", "arm.urdf", "correction.npz", "parameters.json", "frames.csv"}
-    assert files == expected | {"rows.csv", "page.html"}
+    assert files == expected | {"rows.csv", "page.html", "recording.rrd"}
     values = json.loads((calibrated / "parameters.json").read_text())
     best = [row for row in values["errors"] if row["chosen"] and row["folds"] == "at random"]
     assert best[0]["mean"] < 4e3 * NOISE

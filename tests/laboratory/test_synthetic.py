@@ -1,4 +1,4 @@
-"""Calibrations of synthetic arms: the whole summary, the files and corrections."""
+"""Calibrations of synthetic arms: the whole summary, the files, the recording and corrections."""
 
 import csv
 import json
@@ -14,10 +14,12 @@ from recalib.laboratory.calibrate import calibrate, calibrate_arm
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report import folder as report
+from recalib.laboratory.report.recording import recording_of
 from recalib.laboratory.report.summary import errors_table
 from tests.arms import urdf
 from tests.identification.real import Real
 from tests.laboratory.conftest import in_degrees, in_millimetres, write
+from tests.logged import logged
 
 SLIDING = urdf(
     ("swing", "revolute", "0 0 1", "0 0 0.3"),
@@ -124,6 +126,24 @@ def test_a_file_that_is_read_back_as_another_arm_is_not_written(name, made, monk
         monkeypatch.setattr(type(result.correction), "archive", lambda its: content)
     with pytest.raises(InvalidFile, match=f"{name}: read back, its forward kinematics are .* off"):
         report.files_of(result)
+
+
+def test_the_recording_shows_measured_rows_and_their_errors(made, tmp_path):
+    result = made("poses")
+    content, missing = recording_of(result)
+    (tmp_path / "its.rrd").write_bytes(content)
+    values = logged(tmp_path / "its.rrd")
+    assert missing == ""
+    (points,) = values["/measured Points3D:positions"]
+    assert points.reshape(-1, 3) == pytest.approx(result.positions, abs=1e-6)
+    for name, residuals in result.residuals.items():
+        errors = 1e3 * np.linalg.norm(residuals[:, :3], axis=1)
+        assert np.concatenate(values[f"/errors/{name} Scalars:scalars"]) == pytest.approx(errors)
+        (arrows,) = values[f"/residuals/{name} Arrows3D:vectors"]
+        longer = np.linalg.norm(arrows.reshape(-1, 3), axis=1) / errors
+        assert longer == pytest.approx(longer[0], rel=1e-5)
+    rows = np.unique(np.concatenate(values["/now row"]))
+    assert rows.tolist() == (result.counted + 1).tolist()
 
 
 @pytest.mark.parametrize("name", ["poses", "targets"])
