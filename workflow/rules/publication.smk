@@ -5,7 +5,7 @@ from recalib.nominal.meshes import mesh_files
 from replication.config.switches import IMPROVED
 from replication.pages.writing import OUTCOME, pages_of
 from replication.plots.figures import Figure, figures_of
-from replication.recording.recorded import recorded_learners, recorded_places
+from replication.recording.recorded import recorded_learner, recorded_places
 
 FIGURES = [
     f"{RESULTS}/figures/{name}.{suffix}" for name in figures_of(STUDY) for suffix in ("svg", "png")
@@ -40,9 +40,8 @@ rule recordings:
         settings=SETTINGS,
         meshes=[str(path) for path in mesh_files(find_urdf(STUDY.robots[STUDY.robot].urdf))],
         histories=[
-            place.history_file(RESULTS, learner)
+            place.history_file(RESULTS, recorded_learner(STUDY))
             for place in recorded_places(STUDY)
-            for learner in recorded_learners(STUDY)
         ],
     output:
         recordings=RECORDINGS,
@@ -231,23 +230,6 @@ rule article:
         "../scripts/call.py"
 
 
-rule before_and_after:
-    input:
-        recording=f"{RESULTS}/recordings/{{scenario}}.rrd",
-    output:
-        before=f"{RESULTS}/figures/{{scenario}}_before.png",
-        after=f"{RESULTS}/figures/{{scenario}}_after.png",
-    log:
-        f"{RESULTS}/logs/before_and_after/{{scenario}}.log",
-    localrule: True
-    params:
-        **calls("recording.pictures:before_and_after"),
-    message:
-        "Take pictures of the arm with the viewer, which needs a Vulkan driver"
-    script:
-        "../scripts/call.py"
-
-
 rule film:
     input:
         recording=f"{RESULTS}/recordings/{{scenario}}.rrd",
@@ -257,7 +239,7 @@ rule film:
         f"{RESULTS}/logs/film/{{scenario}}.log",
     localrule: True
     params:
-        **calls("recording.pictures:take_film"),
+        **calls("recording.film:take_film"),
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
     script:
