@@ -1,6 +1,5 @@
 """The public names and their modules."""
 
-from .benchmark import Timed as Timed
 from .benchmark import compete as compete
 from .competitors import UNCORRECTED as UNCORRECTED
 from .competitors import make_peer as make_peer

@@ -136,7 +136,7 @@ if IS_SHIPPED:
 # What a target of its own measures, with its tables, its figure and its page.
 APART = {
     "benchmark": (
-        ["benchmark.csv", "benchmark_moves.csv", "benchmark_seconds.csv"],
+        ["benchmark.csv", "benchmark_moves.csv"],
         Figure.BENCHMARK,
         "guidance.md",
     ),
