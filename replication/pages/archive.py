@@ -12,7 +12,7 @@ import mimetypes
 import subprocess
 import sys
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -26,7 +26,6 @@ from rocrate.rocrate import ROCrate
 import recalib
 from recalib.files.storage import whole
 from replication.config import shipped
-from replication.judgement.findings import Finding, Number, read_findings
 from replication.plots.figures import Figure
 
 RESULTS, PUBLISHED = Path(shipped.RESULTS), Path("published")  # here, and in the archive
@@ -34,7 +33,6 @@ NOTES = Path(".snakemake/metadata")  # what Snakemake knows of each file that it
 CHOSEN = (
     "summary.csv",
     "claims.json",
-    "claims.jsonld",
     "SHA256SUMS",
     "check.txt",
     "article.pdf",
@@ -82,38 +80,6 @@ def notes() -> Iterator[tuple[Path, Mapping[str, Any]]]:
     for path in sorted(NOTES.iterdir()):
         name = base64.b64decode(path.name).decode()
         yield Path(name), json.loads(path.read_text(encoding="utf-8"))
-
-
-def as_linked_data(findings: Iterable[Finding], paper: Mapping[str, Any]) -> dict[str, Any]:
-    """Each finding as a review of a sentence of the paper, in the words of schema.org."""
-    article = {"@type": "ScholarlyArticle", "name": paper["title"]}
-    return {
-        "@context": "https://schema.org",
-        "@graph": [
-            {
-                "@type": "ClaimReview",
-                "@id": f"#{finding.id}",
-                "claimReviewed": finding.claim,
-                "itemReviewed": {
-                    "@type": "Claim",
-                    "text": finding.statement,
-                    "appearance": article | {"pagination": f"section {finding.section}"},
-                },
-                "reviewAspect": finding.criterion,
-                "reviewRating": {"@type": "Rating", "alternateName": str(finding.verdict)},
-                "additionalProperty": [_property(number) for number in finding.estimates],
-            }
-            for finding in findings
-        ],
-    }
-
-
-def _property(number: Number) -> dict[str, Any]:
-    name = f"{number.name} ({number.system})"
-    found = {"@type": "PropertyValue", "name": name, "value": number.value}
-    if number.interval:
-        found |= dict(zip(("minValue", "maxValue"), number.interval, strict=True))
-    return found
 
 
 def _moment(seconds: float) -> str:
@@ -203,14 +169,8 @@ def _add_run(
 def pack(archive: Path) -> None:
     """Write the archive."""
     citation = yaml.safe_load(Path("CITATION.cff").read_text(encoding="utf-8"))
-    findings = read_findings(RESULTS / "claims.json").values()
-    linked = as_linked_data(findings, citation["references"][0])
-    for name, text in (
-        ("claims.jsonld", json.dumps(linked, indent=1) + "\n"),
-        ("SHA256SUMS", checksums()),
-    ):
-        with whole(RESULTS / name) as path:
-            path.write_text(text, encoding="utf-8")
+    with whole(RESULTS / "SHA256SUMS") as path:
+        path.write_text(checksums(), encoding="utf-8")
     its, top = crate(citation), f"recalib-{recalib.__version__}"
     with whole(archive) as path, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
         text = json.dumps(its.metadata.generate(), indent=1) + "\n"
