@@ -51,7 +51,6 @@ PROFILES = {
     "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
 }
 LICENCE = "https://spdx.org/licenses/MIT"
-SNAKEMAKE = "https://w3id.org/workflowhub/workflow-ro-crate#snakemake"
 MOMENT = (1980, 1, 1, 0, 0, 0)  # of all files in the archive
 
 
@@ -103,22 +102,14 @@ def crate(citation: Mapping[str, Any]) -> ROCrate:
         its.add(Person(its, f"#{it['name']}", {"name": it["name"]})) for it in citation["authors"]
     ]
     its.root_dataset["author"] = authors
-    language = {
-        "@type": "ComputerLanguage",
-        "name": "Snakemake",
-        "url": "https://snakemake.github.io",
-        "version": version("snakemake"),
-    }
-    workflow = its.add(
-        ComputationalWorkflow(
-            its,
-            "Snakefile",
-            "Snakefile",
-            properties={"name": "The replication", "license": LICENCE},
-        )
+    workflow = its.add_workflow(
+        "Snakefile",
+        "Snakefile",
+        properties={"name": "The replication", "license": LICENCE},
+        main=True,
+        lang="snakemake",
+        lang_version=version("snakemake"),
     )
-    workflow["programmingLanguage"] = its.add(ContextEntity(its, SNAKEMAKE, language))
-    its.mainEntity = workflow
     code = {path: path for path in committed() if path != Path("Snakefile")}
     results = {path: PUBLISHED / path.relative_to(RESULTS) for path in chosen()}
     for path, place in (code | results).items():
@@ -137,13 +128,12 @@ def _add_run(
 ) -> None:
     """An action for the whole run, and one for each job whose results are kept."""
     noted = [(path, note) for path, note in notes() if path in results and note["endtime"]]
-    whole_run = {"@type": "CreateAction", "name": "A run of the workflow", "instrument": workflow}
-    whole_run["agent"] = authors
+    about = {"name": "A run of the workflow", "agent": authors}
     if noted:
-        whole_run["startTime"] = _moment(min(note["starttime"] for _, note in noted))
-        whole_run["endTime"] = _moment(max(note["endtime"] for _, note in noted))
-    whole_run["result"] = [its.dereference(place.as_posix()) for place in results.values()]
-    actions = [its.add(ContextEntity(its, "#run", whole_run))]
+        about["startTime"] = _moment(min(note["starttime"] for _, note in noted))
+        about["endTime"] = _moment(max(note["endtime"] for _, note in noted))
+    made = [its.dereference(place.as_posix()) for place in results.values()]
+    actions = [its.add_action(workflow, "#run", result=made, properties=about)]
     tools = {}
     for path, note in noted:
         if (rule := note["rule"]) not in tools:
@@ -151,16 +141,18 @@ def _add_run(
             tool["version"] = recalib.__version__
             tools[rule] = its.add(ContextEntity(its, f"#rule-{rule}", tool))
         read = [results.get(Path(name), Path(name)).as_posix() for name in note["input"]]
-        job = {
-            "@type": "CreateAction",
-            "name": f"{rule}: {path.as_posix()}",
-            "instrument": tools[rule],
-            "object": [entity for name in read if (entity := its.dereference(name))],
-            "result": its.dereference(results[path].as_posix()),
-            "startTime": _moment(note["starttime"]),
-            "endTime": _moment(note["endtime"]),
-        }
-        actions.append(its.add(ContextEntity(its, f"#job-{path.as_posix()}", job)))
+        job = its.add_action(
+            tools[rule],
+            f"#job-{path.as_posix()}",
+            object=[entity for name in read if (entity := its.dereference(name))],
+            result=its.dereference(results[path].as_posix()),
+            properties={
+                "name": f"{rule}: {path.as_posix()}",
+                "startTime": _moment(note["starttime"]),
+                "endTime": _moment(note["endtime"]),
+            },
+        )
+        actions.append(job)
     its.root_dataset["mentions"] = actions
     last = max((note["endtime"] for _, note in noted), default=0)
     its.datePublished = datetime.fromtimestamp(last, UTC)
