@@ -1,11 +1,11 @@
-"""What is recorded of a study: in each of its scenarios, one training of one learner."""
+"""What is recorded of a study: in each of its scenarios, one training like that of Figure 1."""
 
 from pathlib import Path
 
 import pandas as pd
 
 from replication.config.study import Study
-from replication.training.plan import Place
+from replication.training.plan import Place, leading
 
 
 def recorded_places(study: Study) -> list[Place]:
@@ -13,21 +13,10 @@ def recorded_places(study: Study) -> list[Place]:
     return [Place(study.robot, scenario) for scenario in study.experiments.scenarios]
 
 
-def recorded_iterations(study: Study) -> int:
-    """Iterations of the trainings that are recorded: the shortest that figures show."""
-    return min(map(min, study.experiments.learners.values()))
-
-
-def recorded_learner(study: Study) -> str:
-    """The learner that is recorded: the first that is trained for so long."""
-    iterations = recorded_iterations(study)
-    return next(name for name, its in study.experiments.learners.items() if iterations in its)
-
-
 def recorded_history(study: Study, history: Path) -> pd.DataFrame:
     """The history of the trainings of which one is recorded."""
     table = pd.read_parquet(history)
-    return table[table["iterations"] == recorded_iterations(study)]
+    return table[table["iterations"] == leading(study).iterations]
 
 
 def typical_seed(history: pd.DataFrame) -> int:

@@ -19,17 +19,13 @@ from replication.recording.arms import send_arms
 from replication.recording.blueprint import arrange
 from replication.recording.measurements import send_errors, send_landings, send_map
 from replication.recording.phases import move
-from replication.recording.recorded import (
-    recorded_history,
-    recorded_iterations,
-    recorded_learner,
-    typical_seed,
-)
+from replication.recording.recorded import recorded_history, typical_seed
 from replication.recording.scene import Scene, log_legend, log_surroundings, send_target
 from replication.recording.sight import sight_of
 from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved
 from replication.training.measured import ERRORS
+from replication.training.plan import leading
 from replication.training.poses import Stream
 from replication.training.tuned import Tuned
 
@@ -41,7 +37,7 @@ def record(
     histories: Sequence[Path],
     recordings: Sequence[Path],
 ) -> None:
-    """Write a recording of each scenario: of the typical training of `recorded_learner`.
+    """Write a recording of each scenario: of the typical training of the learner of Figure 1.
 
     Args:
         scenarios: files of the scenarios, those of `recorded_places`.
@@ -58,17 +54,17 @@ def record(
         seed = typical_seed(table)
         watched = watch_training(study, resolved, tuned, seed)
         _compare(path, watched, table[table["seed"] == seed])
-        write_recording(rrd, resolved, recorded_learner(study), watched)
+        write_recording(rrd, resolved, leading(study).learner, watched)
 
 
 def watch_training(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
     """The training with a seed."""
-    iterations, controller = recorded_iterations(study), resolved.controller()
+    (learner, iterations, _), controller = leading(study), resolved.controller()
     tests, scenario = study.training.tests, resolved.scenario
     return watch(
         controller,
         resolved.plant(controller, study.seed, [seed]),
-        tuned.learner(recorded_learner(study), iterations, 1),
+        tuned.learner(learner, iterations, 1),
         Stream.SCENARIO.draw(study.seed, [seed], iterations, tests, scenario=scenario),
         study.training.during(iterations),
     )

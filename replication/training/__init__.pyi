@@ -9,6 +9,7 @@ from .measured import BOTH as BOTH
 from .measured import ERRORS as ERRORS
 from .measured import KINDS as KINDS
 from .plan import Place as Place
+from .plan import leading as leading
 from .plan import places as places
 from .plan import throughout as throughout
 from .poses import ResultPoses as ResultPoses

@@ -5,7 +5,8 @@ from recalib.nominal.meshes import mesh_files
 from replication.config.switches import IMPROVED
 from replication.pages.writing import OUTCOME, pages_of
 from replication.plots.figures import Figure, figures_of
-from replication.recording.recorded import recorded_learner, recorded_places
+from replication.recording.recorded import recorded_places
+from replication.training.plan import leading
 
 FIGURES = [
     f"{RESULTS}/figures/{name}.{suffix}" for name in figures_of(STUDY) for suffix in ("svg", "png")
@@ -40,7 +41,7 @@ rule recordings:
         settings=SETTINGS,
         meshes=[str(path) for path in mesh_files(find_urdf(STUDY.robots[STUDY.robot].urdf))],
         histories=[
-            place.history_file(RESULTS, recorded_learner(STUDY))
+            place.history_file(RESULTS, leading(STUDY).learner)
             for place in recorded_places(STUDY)
         ],
     output:

@@ -10,7 +10,7 @@ from rerun.chunk import RrdReader
 
 from recalib import BaseShift, EncoderShift, LinkShortening, Noise, Sag
 from replication.config import Study
-from replication.recording import CLOCK, record, recorded_learner, recorded_places
+from replication.recording import CLOCK, record, recorded_places
 from replication.scenarios import Resolved, resolve
 from replication.training.train import train
 
@@ -76,7 +76,7 @@ def trained(study: Study, root: Path) -> Files:
         learned = [path.with_suffix(".npz") for path in histories]
         train(study, *place, scenario, [settings], histories, learned)
         files.scenarios.append(scenario)
-        files.histories.append(Path(place.history_file(str(root), recorded_learner(study))))
+        files.histories.append(Path(place.history_file(str(root), LEARNERS[0])))
         files.recordings.append(root / "recordings" / f"{place.scenario}.rrd")
     files.recordings[0].parent.mkdir()
     return files

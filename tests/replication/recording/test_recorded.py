@@ -2,20 +2,15 @@
 
 import pandas as pd
 
-from replication.recording import (
-    recorded_iterations,
-    recorded_learner,
-    recorded_places,
-    typical_seed,
-)
+from replication.recording import recorded_places, typical_seed
+from replication.training import leading
 
 
-def test_every_scenario_is_recorded_with_the_first_learner_of_the_shortest_training(study):
+def test_every_scenario_is_recorded_with_the_training_of_figure_1(study):
     learners = {"ritter_double": (500,), "improved": (200, 500), "ritter": (200,)}
     plan = study.experiments.model_copy(update={"learners": learners})
     its = study.model_copy(update={"experiments": plan})
-    assert recorded_iterations(its) == 200
-    assert recorded_learner(its) == "improved"
+    assert leading(its) == ("improved", 200, "links_encoders")
     assert [place.scenario for place in recorded_places(its)] == [*plan.scenarios]
     assert {place.robot for place in recorded_places(its)} == {study.robot}
 
