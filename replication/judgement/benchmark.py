@@ -9,7 +9,6 @@ import pandas as pd
 
 from replication.config.study import Benchmark, Study
 from replication.judgement.summary import cells_of_mean
-from replication.training.competitors import needs_of
 from replication.training.measured import BOTH, ERRORS
 
 
@@ -46,7 +45,7 @@ def reached(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
             low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
             about = {"scenario": scenario, "learner": learner, "error": error}
             its = {"threshold": threshold, "moves": median, "low": low, "high": high}
-            rows.append(about | its | {"needs": needs_of(learner)})
+            rows.append(about | its)
     return pd.DataFrame(rows)
 
 

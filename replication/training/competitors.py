@@ -7,14 +7,13 @@ iteration; today's, the peers, make one.
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from recalib.learners.kinds import KINDS, POSES, class_of
+from recalib.learners.kinds import KINDS, class_of
 from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.loop.interfaces import Learner
 from recalib.nominal.robots import Robot
 from replication.config.switches import RITTER
 
 MOVES = 2  # of an iteration of the paper's learners
-TWO_MOVES = f"{POSES}, two moves for each"
 UNCORRECTED = "uncorrected"  # the peer that learns nothing
 TWIN = "hybrid"  # the one that identifies a twin: it explains more than geometry
 
@@ -52,12 +51,6 @@ def make_peer(name: str, runs: int, robot: Robot) -> Learner:
     if name == UNCORRECTED:
         return UncorrectedLearner()
     return class_of(its.kind).from_settings(its.settings, runs, robot)
-
-
-def needs_of(name: str) -> str:
-    """What a learner needs to know."""
-    known = peers()
-    return known[name].needs if name in known else TWO_MOVES
 
 
 def label_of(name: str) -> str:
