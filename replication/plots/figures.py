@@ -59,7 +59,7 @@ class Figure(Enum):
         " drawn at 0.001. Other robots are trained with the settings of the study's robot.",
     )
     AMOUNTS = (
-        "damages:amounts",
+        "learning:amounts",
         "Slighter and greater damages.",
         "Errors of the improved system before and after {study.experiments.iterations} iterations,"
         " against the size of the damage (1: the paper's, for which the system is tuned). Lines:"

@@ -3,13 +3,15 @@
 import importlib.metadata
 from typing import Any
 
-from replication.config.damages import damages_among
+from recalib.damaged.damage import EncoderShift, LinkShortening
+from replication.config.damages import Entry, damages_among, describe
 from replication.recording import colours
-from replication.recording.naming import in_words
+from replication.recording.markers import joint_of, link_of
 from replication.recording.watched import Watched
 from replication.scenarios.plants import Resolved
 from replication.training.measured import ERRORS
 
+PARTS = "link", "joint", "encoder"  # keys of what a damage is at
 PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
@@ -37,6 +39,25 @@ def about(resolved: Resolved, watched: Watched) -> str:
         " larger. An arrow shows how far a cell moves a command.",
     ]
     return "\n\n".join(text)
+
+
+def in_words(entry: Entry) -> str:
+    """A damage or disturbance: where it is, what it is, and by how much."""
+    words = {
+        key: ", ".join(its) if isinstance(its, list) else its
+        for key, its in describe(entry).items()
+        if key not in PARTS
+    }
+    said = [f"{key.replace('_', ' ')} {value}" for key, value in words.items()]
+    match entry:
+        case LinkShortening():
+            said[0] = f"{words['shorten']} short"
+        case EncoderShift():
+            said[0] = f"encoder {words['shift']}"
+    if part := link_of(entry) or joint_of(entry):
+        name = part.removesuffix("_link").removesuffix("_joint").replace("_", " ")
+        return f"{name}: {', '.join(said)}"
+    return ", ".join(said)
 
 
 def legend(resolved: Resolved) -> dict[str, colours.Colour]:

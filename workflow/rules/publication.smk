@@ -41,8 +41,7 @@ rule recordings:
         settings=SETTINGS,
         meshes=[str(path) for path in mesh_files(find_urdf(STUDY.robots[STUDY.robot].urdf))],
         histories=[
-            place.history_file(RESULTS, leading(STUDY).learner)
-            for place in recorded_places(STUDY)
+            place.history_file(RESULTS, leading(STUDY).learner) for place in recorded_places(STUDY)
         ],
     output:
         recordings=RECORDINGS,
@@ -122,7 +121,7 @@ rule publish:
         f"{RESULTS}/logs/publish.log",
     localrule: True
     params:
-        **calls("pages.publishing:publish"),
+        **calls("pages.writing:publish"),
     message:
         "Publish figures and pages"
     script:
@@ -193,7 +192,7 @@ for part, (tables, figure, page) in APART.items():
             f"{RESULTS}/logs/publish_{part}.log",
         localrule: True
         params:
-            **calls("pages.publishing:publish"),
+            **calls("pages.writing:publish"),
         message:
             f"Publish the {part}"
         script:
