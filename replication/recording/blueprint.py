@@ -19,7 +19,7 @@ LEAST = 0.1  # cm and degrees, to which a plot reaches at least
 
 
 def arrange(watched: Watched, sight: Sight) -> rrb.Blueprint:
-    """The text and the errors beside the arm."""
+    """The text and the errors to the left of the arm."""
     arm = rrb.Spatial3DView(
         origin="/",
         name=ARM,

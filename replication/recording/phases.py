@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import rerun as rr
 
-ARM = "the arm"  # the view of it
+ARM = "the arm"  # the name of its view
 # Plots have no clock of their own: that of the viewer counts iterations, so that their ticks do.
 CLOCK = "iterations"
 FRAMES_A_SECOND = 30
