@@ -6,21 +6,12 @@ from pathlib import Path
 import pandas as pd
 
 from replication.campaign.measuring import Replicate
-from replication.campaign.setups import OUTCOMES, Setup
+from replication.campaign.setups import Setup
 from replication.campaign.variants import Variant
 from replication.config.campaign import Factors
 from replication.config.study import Study
 from replication.scenarios.plants import Resolved
 from replication.training.tuned import rules_of, trained
-
-
-def untuned(study: Study, project: Path = Path()) -> list[str]:
-    """The learners for which a study needs settings that are not shipped."""
-    needed, shipped = trained(study), set()
-    if study.settings == "shipped" and (project / OUTCOMES).exists():
-        table = pd.read_csv(project / OUTCOMES).query("setup == 0 and replicate == 0")
-        shipped = set(zip(table["variant"], table["iterations"], strict=True))
-    return sorted({learner for learner, _ in needed - shipped})
 
 
 def tune(study: Study, learner: str, scenario: Path) -> pd.DataFrame:

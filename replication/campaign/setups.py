@@ -17,13 +17,10 @@ import yaml
 from recalib.learners.rules import Rules
 from replication.config.damages import Entry, describe
 from replication.config.part import Frozen
-from replication.config.shipped import CAMPAIGN
+from replication.config.shipped import OUTCOMES
 from replication.config.study import Study, WorkspaceSettings
 from replication.scenarios.nominal import Nominal, nominal
 
-DESIGN = f"{CAMPAIGN}/design.csv"
-OUTCOMES = f"{CAMPAIGN}/outcomes.csv"  # the campaign is this one table
-UNTRAINED = f"{CAMPAIGN}/untrained.csv"  # what is measured in every setup without a learner
 DIGITS = 4  # of a length in m
 LINE = 1000  # characters: no list of damages is longer
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 
 from recalib.files.storage import whole
-from replication.campaign.setups import OUTCOMES
+from replication.config.shipped import OUTCOMES
 
 ROW = ["setup", "replicate", "variant", "iterations"]
 

@@ -10,7 +10,9 @@ from replication.config.messages import MOST_SHOWN as MOST_SHOWN
 from replication.config.messages import InvalidConfiguration as InvalidConfiguration
 from replication.config.reading import read_study as read_study
 from replication.config.shipped import CAMPAIGN as CAMPAIGN
+from replication.config.shipped import DESIGN as DESIGN
 from replication.config.shipped import DEVIATIONS as DEVIATIONS
+from replication.config.shipped import FEWEST as FEWEST
 from replication.config.shipped import RESULTS as RESULTS
 from replication.config.shipped import root_of as root_of
 from replication.config.study import Ensemble as Ensemble

@@ -15,11 +15,11 @@ from pydantic import TypeAdapter
 from replication.campaign.variants import variants
 from replication.config.campaign import Factors
 from replication.config.part import Frozen
-from replication.config.shipped import SECOND, root_of
+from replication.config.shipped import FEWEST, SECOND, root_of
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.judgement.claims import claims
-from replication.judgement.claims.claim import FEWEST, Claim, OfSetups, Statement, TooFewSetups
+from replication.judgement.claims.claim import Claim, OfSetups, Statement, TooFewSetups
 from replication.judgement.contrasts import Remaining
 from replication.judgement.deviations import Deviations
 from replication.judgement.evidence import Evidence, NotMeasured

@@ -12,22 +12,13 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from recalib.files.storage import whole
-from replication.config.shipped import SHIPPED
 from replication.config.study import Study
 from replication.pages import formats, guidance
 from replication.pages.contents import Contents
 from replication.plots.figures import Figure
 
 TEMPLATES = "workflow/templates"
-OUTCOME = "outcome.txt"  # what a run prints when it ends
-EVERYWHERE = (OUTCOME, "findings.md")
-OF_SHIPPED = ("README.md", "index.md", "choices.md", "deviations.md", "article.typ")
 MARKUP = re.compile(r"[\\*_`$#@<>\[\]~]|//")  # of Typst: in a result it is text
-
-
-def pages_of(study: Study) -> list[str]:
-    """The pages that a run of a study writes."""
-    return [*EVERYWHERE, *(OF_SHIPPED if study.name == SHIPPED else ())]
 
 
 def write(

@@ -1,11 +1,11 @@
 """Which figures there are, with their captions; `drawing` draws them."""
 
+import csv
 from enum import Enum
+from pathlib import Path
 
-from replication.config.shipped import SHIPPED
+from replication.config.shipped import FEWEST, OUTCOMES, SHIPPED
 from replication.config.study import Study
-from replication.judgement.claims.claim import FEWEST
-from replication.judgement.evidence import Evidence, NotMeasured
 
 
 class Figure(Enum):
@@ -125,11 +125,10 @@ def figures_of(study: Study) -> list[str]:
     return [its.file for its in Figure if its not in APART and not lacking.get(its)]
 
 
-def _setups(study: Study) -> set[int]:
+def _setups(study: Study) -> set[str]:
     """The setups of the campaign that are measured so far, if the study judges by them."""
-    if study.name != SHIPPED or not study.experiments.evidence:
+    table = Path(OUTCOMES)
+    if study.name != SHIPPED or not study.experiments.evidence or not table.exists():
         return set()
-    try:
-        return set(Evidence(study).outcomes()["setup"])
-    except NotMeasured:
-        return set()
+    with table.open(encoding="utf-8", newline="") as file:
+        return {row["setup"] for row in csv.DictReader(file)}

@@ -9,6 +9,7 @@ import pandas as pd
 from recalib.errors import RecalibError
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
+from replication.config.shipped import OUTCOMES
 from replication.config.study import LearnerSettings, Study
 from replication.config.switches import IMPROVED
 from replication.training.plan import places
@@ -39,6 +40,15 @@ def trained(study: Study) -> set[tuple[str, int]]:
     if study.experiments.evidence:
         more.append((IMPROVED, study.experiments.iterations))  # for the ensemble
     return found | {*more}
+
+
+def untuned(study: Study, project: Path = Path()) -> list[str]:
+    """The learners for which a study needs settings that are not shipped."""
+    needed, shipped = trained(study), set()
+    if study.settings == "shipped" and (project / OUTCOMES).exists():
+        table = pd.read_csv(project / OUTCOMES).query("setup == 0 and replicate == 0")
+        shipped = set(zip(table["variant"], table["iterations"], strict=True))
+    return sorted({learner for learner, _ in needed - shipped})
 
 
 class Tuned:

@@ -63,12 +63,12 @@ class Filmed(PhysicsStation):
 
 def main() -> None:
     """Train, and film on the way."""
-    its, (controller, damaged) = CONDITIONS["physics"], scenario(study().scenario)
+    condition, (controller, damaged) = CONDITIONS["physics"], scenario(study().scenario)
     workspace = controller.robot.workspace
-    station = Filmed(damaged, its.gears)
+    station = Filmed(damaged, condition.gears)
     plant = Plant(controller, station, NOISY, [np.random.default_rng(0)])
     learner = tuned().learner(LEARNER, SHOWN[-1], 1)
-    poses = Stream.SCENARIO.draw(study().seed, [0], SHOWN[-1], GOALS, scenario=its.scenario)
+    poses = Stream.SCENARIO.draw(study().seed, [0], SHOWN[-1], GOALS, scenario=condition.scenario)
     goals = workspace.to_poses(poses.tests[0])
     for iteration in range(SHOWN[-1] + 1):
         if iteration in SHOWN:

@@ -1,4 +1,4 @@
-"""How fast a live calibration is beside an arm that waits: python -m tests.bars.latency.
+"""How fast a live calibration is next to an arm that waits: python -m tests.bars.latency.
 
 Wall times of an update with one more row, of the next proposal, and of a corrected command, in a
 process that has begun. Each is a median.
@@ -32,9 +32,9 @@ def median(call) -> float:
     """Of the times [ms] that a call takes."""
     times = []
     for _ in range(TIMES):
-        began = time.perf_counter()
+        start = time.perf_counter()
         call()
-        times.append(time.perf_counter() - began)
+        times.append(time.perf_counter() - start)
     return 1e3 * float(np.median(times))
 
 
@@ -49,9 +49,9 @@ def live(
     for count in (50, 100, 200):
 
         def running():
-            its = RunningCalibration(arm, Description(), postures, pictures)
-            its.error(rows(count))  # noqa: B023
-            return its
+            calibration = RunningCalibration(arm, Description(), postures, pictures)
+            calibration.error(rows(count))  # noqa: B023
+            return calibration
 
         each = [running() for _ in range(TIMES)]
         fresh, updated = iter(each), iter(each)
@@ -86,16 +86,16 @@ def latencies(name: str) -> None:
     live(name, station.arm, postures, lambda count: rows[:count])
     eccentric = Real(station.arm, 1, gears=GEARS)
     uneven = Observations(joints, eccentric.poses(joints, noise=FINE))
-    for its in (rows, uneven):
-        frames = initial_frames(station.arm, its)
-        calibration = calibrate(station.arm, CANDIDATES, its, frames)
+    for table in (rows, uneven):
+        frames = initial_frames(station.arm, table)
+        calibration = calibrate(station.arm, CANDIDATES, table, frames)
         correction = Correction(b"", calibration, joints)
         path = joints[:1] + np.linspace(0, 0.2, TIMES + 1)[:, None]
         pattern = "no pattern" if calibration.pattern is None else "a pattern"
-        near, goals = [joints[0]], iter(calibration.predict(path))
+        last, goals = [joints[0]], iter(calibration.predict(path))
 
         def command():
-            near[0] = correction.command(next(goals), near[0])  # noqa: B023
+            last[0] = correction.command(next(goals), last[0])  # noqa: B023
 
         command()
         print(f"{name}, {pattern} of residuals: a command {median(command):.2f} ms")

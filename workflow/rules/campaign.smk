@@ -1,7 +1,8 @@
 """The campaign: every variant in every setup. No part of a run: its outcomes are shipped."""
 
-from replication.campaign.setups import DESIGN, planned
+from replication.campaign.setups import planned
 from replication.campaign.variants import lengths, needed, variants
+from replication.config.shipped import DESIGN
 
 MEASURED = f"{RESULTS}/campaign/outcomes/{{setup}}/{{replicate}}.csv"
 PIECE = f"{RESULTS}/campaign/pieces/{{setup}}/{{replicate}}/{{variant}}.csv"

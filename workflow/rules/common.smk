@@ -33,13 +33,14 @@ except RecalibError as error:
     sys.exit(str(error))  # an exception would be told with this file and line, where no mistake is
 
 IS_SHIPPED = STUDY.name == SHIPPED
+DUMPED = STUDY.model_dump_json()
 
 
 def calls(function):
     """Params of a rule that calls "module:function" of `replication`, and again if its code changes."""
     return {
         "function": f"replication.{function}",
-        "study": STUDY.model_dump_json(),
+        "study": DUMPED,
         "code": digest(f"replication.{function.split('.')[0]}"),
     }
 

@@ -1,6 +1,6 @@
 """From histories to one table, the check of it, and a finding for each claim."""
 
-from replication.campaign.setups import DESIGN, OUTCOMES, UNTRAINED
+from replication.config.shipped import DESIGN, OUTCOMES, UNTRAINED
 
 TRAININGS = {
     "resolved": [place.scenario_file(RESULTS) for place in PLACES],

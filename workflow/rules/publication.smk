@@ -3,7 +3,7 @@
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.meshes import mesh_files
 from replication.config.switches import IMPROVED
-from replication.pages.writing import OUTCOME, pages_of
+from replication.pages.names import OUTCOME, pages_of
 from replication.plots.figures import Figure, figures_of
 from replication.recording.recorded import recorded_places
 from replication.training.plan import leading

@@ -1,9 +1,9 @@
 """Scenarios, settings, trainings, and what is measured of the mapping."""
 
 from recalib.nominal.descriptions import find_urdf
-from replication.campaign.own import untuned
-from replication.campaign.setups import OUTCOMES
+from replication.config.shipped import OUTCOMES
 from replication.training.plan import Place, places
+from replication.training.tuned import untuned
 
 PLACES = places(STUDY)
 OWN = Place(STUDY.robot, STUDY.scenario)

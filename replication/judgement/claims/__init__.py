@@ -13,7 +13,6 @@ from replication.judgement.claims import (
     section_7,
     section_8,
 )
-from replication.judgement.claims.claim import FEWEST as FEWEST
 from replication.judgement.claims.claim import Claim
 from replication.judgement.claims.claim import Measured as Measured
 from replication.judgement.claims.claim import OfSetups as OfSetups

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from replication.config.shipped import FEWEST
 from replication.judgement.contrasts import Estimand, Values
 from replication.judgement.effects import strongest
 from replication.judgement.evidence import Evidence, NotMeasured
@@ -110,9 +111,6 @@ class OfSetups:
 
 class TooFewSetups(NotMeasured):
     """The campaign has not measured a number in so many setups that a verdict may follow."""
-
-
-FEWEST = 20  # setups: until then no verdict follows from them (docs/registration.md)
 
 
 def enough(values: Values) -> bool:

@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from replication.config import read_study
-from replication.judgement.claims import FEWEST
+from replication.config import FEWEST, read_study
 from replication.pages import OUTCOME, Contents, pages_of, render, write
 from replication.pages.formats import short
 from replication.plots import Figure

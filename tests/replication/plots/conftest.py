@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.campaign import DESIGN, DOUBLE, TWO_MAPS
+from replication.campaign import DOUBLE, TWO_MAPS
 from replication.campaign.variants import variants
-from replication.config import CAMPAIGN, IMPROVED, RESULTS, RITTER, Study, read_study
+from replication.config import CAMPAIGN, DESIGN, IMPROVED, RESULTS, RITTER, Study, read_study
 from replication.judgement import Evidence, written
 from replication.judgement.claims import judge
 from replication.plots import STYLE, Figure, drawn

@@ -1,0 +1,13 @@
+"""The pages of a study, by name: without what it takes to write them."""
+
+from replication.config.shipped import SHIPPED
+from replication.config.study import Study
+
+OUTCOME = "outcome.txt"  # what a run prints when it ends
+EVERYWHERE = (OUTCOME, "findings.md")
+OF_SHIPPED = ("README.md", "index.md", "choices.md", "deviations.md", "article.typ")
+
+
+def pages_of(study: Study) -> list[str]:
+    """The pages that a run of a study writes."""
+    return [*EVERYWHERE, *(OF_SHIPPED if study.name == SHIPPED else ())]
