@@ -42,7 +42,7 @@ from recalib.vision.views import board_pose
 from replication.config.shipped import OUTCOMES
 from replication.config.study import Study
 from replication.plots.palette import STYLES
-from replication.plots.style import STYLE, logarithmic, save, title
+from replication.plots.style import STYLE, logarithmic, save
 from replication.running.studies import study_of
 from replication.scenarios.resolving import resolve
 from replication.training.competitors import label_of, make_peer
@@ -253,7 +253,8 @@ def draw_figure(curves: pd.DataFrame) -> None:
         column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")
     for axes, (error, unit) in zip(panels[:, 0], ERRORS.items(), strict=True):
         axes.set_ylabel(f"{error.split('_')[0]} error [{unit}]")
-    title(figure, "The paper, live: errors with the physics of MuJoCo and with kinematics")
+    shown = "The paper, live: errors with the physics of MuJoCo and with kinematics"
+    figure.suptitle(shown, fontweight="bold", x=0.01, ha="left")
     save(figure, FIGURE)
 
 

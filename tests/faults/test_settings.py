@@ -19,8 +19,8 @@ from replication.config.study import Study
 from replication.config.values import from_file
 from replication.pages.names import pages_of
 from replication.plots.figures import figures_of
-from replication.running.checks.consistency import check
-from replication.running.checks.geometry import check_robots
+from replication.running.consistency import check
+from replication.running.geometry import check_robots
 from replication.running.studies import named_files
 from replication.scenarios.nominal import nominal
 from replication.training.plan import places

@@ -10,7 +10,7 @@ from mkdocs.structure.files import File, Files
 
 import recalib
 from replication.pages.imprint import Imprint
-from replication.recording.web_viewer import ADDRESS, embed
+from replication.recording.web_viewer import PAGE, embed
 
 SHOWN = (
     "*.md",
@@ -29,7 +29,7 @@ WIDE = "docs/index.md", "docs/try.md", "docs/watch.md"  # without columns beside
 BADGES = re.compile(r"^\[!\[.*\n\n", re.MULTILINE)  # pictures from elsewhere
 WATCH, VIEWER = "docs/watch.md", "viewer"
 # Where the picture is in the repository: the viewer has 35 MB, so nothing is loaded before a click.
-EMBEDDED = f"""<button type="button" class="md-button embed" data-address="../{VIEWER}/{ADDRESS}">
+EMBEDDED = f"""<button type="button" class="md-button embed" data-address="../{VIEWER}/{PAGE}">
 Watch the recording here (35 MB)</button>
 
 """

@@ -2,21 +2,15 @@
 
 import pandas as pd
 
-from replication.recording import (
-    published_errors,
-    recorded_iterations,
-    recorded_learners,
-    recorded_places,
-    typical_seed,
-)
+from replication.recording import recorded_places, typical_seed
+from replication.training import leading
 
 
-def test_every_scenario_is_recorded_with_the_learners_of_the_shortest_training(study):
-    learners = {"improved": (200, 500), "ritter": (200,), "ritter_double": (500,)}
+def test_every_scenario_is_recorded_with_the_training_of_figure_1(study):
+    learners = {"ritter_double": (500,), "improved": (200, 500), "ritter": (200,)}
     plan = study.experiments.model_copy(update={"learners": learners})
     its = study.model_copy(update={"experiments": plan})
-    assert recorded_iterations(its) == 200
-    assert recorded_learners(its) == ["improved", "ritter"]
+    assert leading(its) == ("improved", 200, "links_encoders")
     assert [place.scenario for place in recorded_places(its)] == [*plan.scenarios]
     assert {place.robot for place in recorded_places(its)} == {study.robot}
 
@@ -31,10 +25,3 @@ def test_the_typical_training_ends_with_the_median_error():
         }
     )
     assert typical_seed(table) == 7
-
-
-def test_the_published_errors_belong_to_the_papers_damage_alone(study, small):
-    published = {"position_error_cm": 8.3, "orientation_error_deg": 4.7}  # section 7
-    assert published_errors(study, "links_encoders") == published
-    assert published_errors(study, "links") == {}, "a part of it"
-    assert published_errors(small, "links_encoders") == {}, "another damage"

@@ -1,4 +1,4 @@
-"""The viewer leaves nothing in a home, is started in one way alone, and takes pictures."""
+"""The viewer leaves nothing in a home, and films."""
 
 import os
 import subprocess
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from replication.recording import ARM, BEFORE, ends, take_pictures
+from replication.recording import take_film
 from replication.recording.viewer import PROGRAM, quiet
 
 FOLDERS = "/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"
@@ -32,17 +32,13 @@ def test_it_writes_nothing_into_a_home(tmp_path):
 @pytest.mark.skipif(
     not DRIVERS, reason="needs a Vulkan driver, for instance Debian's mesa-vulkan-drivers"
 )
-def test_the_viewer_shows_the_arm_miss_and_hit(recording, tmp_path):
-    before, after = tmp_path / "before.png", tmp_path / "after.png"
-    take_pictures(recording, {before: BEFORE, after: ends(recording)[1]})
+def test_the_film_shows_the_arm_miss_and_hit(recording, tmp_path):
+    take_film(recording, tmp_path / "arm.webp")
+    assert (tmp_path / "arm.webp").stat().st_size < 4_000_000
     orange = []
-    for png in (before, after):
-        with Image.open(png) as picture:
-            pixels = np.asarray(picture.convert("RGB"), int)
-        assert pixels.shape[1] == 1400 and png.stat().st_size < 300_000
-        red, green, blue = np.moveaxis(pixels[:, 530:], -1, 0)  # of the arm's view
-        orange.append(np.sum((red > 180) & (green < 140) & (blue < 100)))
+    with Image.open(tmp_path / "arm.webp") as film:
+        for number in (film.n_frames // 3 - 1, film.n_frames - 1):  # at rest, before and after
+            film.seek(number)
+            red, green, blue = np.moveaxis(np.asarray(film.convert("RGB"), int), -1, 0)
+            orange.append(np.sum((red > 180) & (green < 140) & (blue < 100)))
     assert orange[0] > 2000 > 2 * orange[1], "what is hit is hidden"
-    take_pictures(recording, {before: BEFORE}, view=ARM, window=(800, 600))
-    with Image.open(before) as picture:
-        assert picture.width < 520, "one view of a smaller window"

@@ -1,6 +1,6 @@
 import pandas as pd
 
-from replication.training import Timed, compete
+from replication.training import compete
 
 
 def of(study, **update):
@@ -12,8 +12,7 @@ def of(study, **update):
 
 def test_scenarios_side_by_side_are_what_each_of_them_is_alone(study):
     def competed(*scenarios):
-        table = compete(of(study, scenarios=scenarios), "affine", [])
-        return table.drop(columns="seconds_per_move")
+        return compete(of(study, scenarios=scenarios), "affine", [])
 
     both = competed("links", "rotation")
     assert both.groupby(["scenario", "seed"])["moves"].agg(list).to_dict() == {
@@ -29,12 +28,3 @@ def test_a_learner_of_the_paper_moves_twice_an_iteration_by_its_settings(study, 
     assert table["moves"].tolist() == [2, 4, 8] * 2
     assert table["iteration"].tolist() == [1, 2, 4] * 2
     assert (table["learner"] == "improved").all()
-
-
-def test_its_time_is_shared_by_all_moves_of_all_runs(study, monkeypatch):
-    def learn(self, *_):
-        self.seconds += 6.0
-
-    monkeypatch.setattr(Timed, "learn", learn)
-    table = compete(of(study, scenarios=("links",), longer=()), "affine", [])
-    assert set(table["seconds_per_move"]) == {4 * 6.0 / (2 * 4)}
