@@ -22,6 +22,8 @@ def array_of(name: str, given: ArrayLike, *shapes: Shape) -> np.ndarray:
         array = np.asarray(given)
     except ValueError:  # rows of different lengths
         array = np.array(None)
+    if np.ma.is_masked(given):
+        raise InvalidSetting(name, "masked in places", valid)
     if array.dtype.kind not in "iuf":
         raise InvalidSetting(name, type(given).__name__, valid)
     if not any(_fits(array, shape) for shape in shapes):

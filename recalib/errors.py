@@ -16,7 +16,7 @@ class UnknownName(RecalibError):
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)
-        super().__init__(f"unknown {kind} {name!r}; {instead(name, self.valid)}")
+        super().__init__(f"unknown {kind} {name!r}; {instead(str(name), self.valid)}")
 
 
 class InvalidQuantity(RecalibError):

@@ -9,10 +9,17 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting
 
 IN_THE_MAKING = ".part"
 MOST_TOML = 16_000  # bytes: tomllib's memory grows with the square of the parts of a key
+
+
+def path_of(given: str | os.PathLike[str]) -> Path:
+    """The path that a caller gives. Raises InvalidSetting: something else, or an empty name."""
+    if not isinstance(given, str | os.PathLike) or not os.fspath(given):
+        raise InvalidSetting("path", given, "the name of a file or folder")
+    return Path(given)
 
 
 def read_file(path: str | os.PathLike[str], most: int) -> bytes:
@@ -23,6 +30,7 @@ def read_file(path: str | os.PathLike[str], most: int) -> bytes:
 
     Raises InvalidFile: no such file, one that cannot be read or has no end, or a larger one.
     """
+    path = path_of(path)
     try:
         mode = os.stat(path).st_mode
         if stat.S_IFMT(mode) not in (stat.S_IFREG, stat.S_IFDIR):

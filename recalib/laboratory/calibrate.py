@@ -1,6 +1,6 @@
 """Calibration: from measurements to a calibrated arm and its cross-validated errors."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from recalib.arrays import array_of, check_rotations
 from recalib.errors import InvalidSetting
-from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
+from recalib.files.quantities import LENGTH, TIME
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.repeatability import weigh
 from recalib.identification.checks.scales import scales
@@ -23,9 +23,10 @@ from recalib.laboratory.plausibility.mistakes import check_nominal
 from recalib.laboratory.report.doubts import fault_in_words
 from recalib.laboratory.report.summary import summary
 from recalib.laboratory.results import Results, without_shift
-from recalib.laboratory.tables.columns import SOCKETS, TARGETS, TIMES
-from recalib.laboratory.tables.description import Description, read_description
+from recalib.laboratory.tables.columns import SOCKETS, TARGETS, TIMES, Columns
+from recalib.laboratory.tables.description import Description, distances_of, read_description
 from recalib.laboratory.tables.measurements import Measurements, check_measured, read_measurements
+from recalib.laboratory.tables.table import Table
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import UrdfFile
 from recalib.nominal.kinematics import Arm
@@ -33,6 +34,7 @@ from recalib.spelling import counted
 
 AnyPath = str | PathLike[str]
 Progress = Callable[[str], None]
+ARRAYS = Path("the arrays")  # what messages call measurements without a file
 
 
 class Calibrated(Results):
@@ -80,28 +82,30 @@ def calibrate(
     """
     if not isinstance(arm, Arm):
         raise InvalidSetting("arm", type(arm).__name__, "an Arm, as load_arm returns")
-    moving = array_of("joints", joints, ("n", len(arm.coupling.columns)))
-    for kind, chosen in ((ANGLE, ~arm.coupling.slides), (LENGTH, arm.coupling.slides)):
-        _check_unit("joints", moving[:, chosen], kind)
+    moving = arm.coupling.given("joints", joints, ("n",))
     count, poses, columns = len(moving), None, {}
     if measured is not None:
         poses = array_of("measured", measured, (count, 3), (count, 4, 4))
-        _check_unit("measured", poses if poses.ndim == 2 else poses[:, :3, 3], LENGTH)
+        LENGTH.check("measured", poses if poses.ndim == 2 else poses[:, :3, 3])
         if poses.ndim == 3:
             check_rotations("measured", poses)
     if times is not None:
         columns[TIMES.name] = array_of("times", times, (count,))
-        _check_unit("times", columns[TIMES.name], TIME)
-    for name, labels in ((TARGETS.name, targets), (SOCKETS.name, sockets)):
+        TIME.check("times", columns[TIMES.name])
+    for kind, labels in ((TARGETS, targets), (SOCKETS, sockets)):
         if labels is not None:
-            columns[name] = np.asarray(labels).astype(str)
-            if columns[name].shape != (count,):
-                raise InvalidSetting(name, f"of shape {columns[name].shape}", f"{count} names")
-    pairs = {}
-    for (one, other), length in (distances or {}).items():
-        pairs[min(str(one), str(other)), max(str(one), str(other))] = float(length)
+            columns[kind.name] = _names(kind, labels, count)
+    if distances is not None and not isinstance(distances, Mapping):
+        valid = "lengths [m] by the names of two sockets"
+        raise InvalidSetting("distances", type(distances).__name__, valid)
+    pairs = distances_of(
+        [
+            {"sockets": [*pair] if isinstance(pair, tuple) else pair, "length": f"{length} m"}
+            for pair, length in (distances or {}).items()
+        ]
+    )
     frames = _frame("instrument", instrument), _frame("target", target)
-    rows = Measurements(Path("the arrays"), moving, poses, columns)
+    rows = Measurements(ARRAYS, moving, poses, columns)
     known = Description({}, *frames, pairs)
     return identified(arm, data_set(check_measured(rows), known, arm), on_progress=on_progress)
 
@@ -111,15 +115,18 @@ def _frame(name: str, given: ArrayLike | None) -> np.ndarray | None:
         return None
     pose = array_of(name, given, (4, 4))
     check_rotations(name, pose)
-    _check_unit(name, pose[:3, 3], LENGTH)
+    LENGTH.check(name, pose[:3, 3])
     return pose
 
 
-def _check_unit(name: str, numbers: np.ndarray, kind: Quantity) -> None:
-    """Raise InvalidSetting of numbers that are too large for their unit."""
-    if (largest := np.abs(numbers).max(initial=0)) > kind.farthest:
-        farthest = kind.write(kind.farthest)
-        raise InvalidSetting(name, f"up to {largest:.3g}", f"up to {farthest}; is its unit right?")
+def _names(kind: Columns, labels: object, count: int) -> np.ndarray:
+    """Names (n,), as in the column of a table. Raises InvalidSetting and InvalidFile."""
+    given = [labels] if isinstance(labels, str) or not isinstance(labels, Iterable) else [*labels]
+    if len(given) != count or not all(isinstance(label, Hashable) for label in given):
+        raise InvalidSetting(kind.name, labels, f"{count} names")
+    heading = kind.headings[0]
+    cells = ["" if label is None or label != label else str(label) for label in given]
+    return Table(ARRAYS, {heading: ""}, {heading: cells}, {}).read([kind])[kind.name]
 
 
 def calibrate_arm(

@@ -1,6 +1,7 @@
 """What each command of `recalib` does with its options."""
 
 import argparse
+import os
 import sys
 from dataclasses import replace
 from importlib import import_module
@@ -53,7 +54,7 @@ def calibrate_rows(options: Options) -> int:
     """Write a folder of results of an arm, from a table or from folders of pictures."""
     page_of = _load("laboratory.report.page", "page_of")
     paths: list[Path] = options.measurements
-    folders = [path for path in paths if path.is_dir()]
+    folders = [path for path in paths if os.path.isdir(path)]
     if len(paths) > 1 and len(folders) < len(paths):
         valid = "expected: one table, or folders from recalib observe"
         raise InvalidFile(paths[0], f"it is one of {len(paths)} tables; {valid}")
@@ -154,7 +155,7 @@ def next_(options: Options) -> int:
         rows = read_desired(options.candidates, correction.arm)
         candidates = rows.joints
         if rows.measured is not None:
-            candidates = Goals.of(rows.measured, rows.joints, len(correction.arm.coupling.columns))
+            candidates = Goals.of(rows.measured, rows.joints, correction.arm.coupling)
     proposal = propose(correction, options.count, candidates)
     poses = correction.arm.forward(correction.arm.coupling.joints(proposal.joints))
     write_new(options.out, postures_table(correction.arm, proposal.joints, poses), ".csv")

@@ -8,6 +8,7 @@ The commands are the paper's own idea: the controller gets a *fake* pose, from w
 kinematics make the joint coordinates that take the real arm to the desired pose.
 """
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -19,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.archives import MOST, archive_of, opened, refused
-from recalib.files.storage import read_file, whole
+from recalib.files.storage import path_of, read_file, whole
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.poses import outside_of
 from recalib.identification.model.error_model import by_sight
@@ -194,7 +195,7 @@ class Correction:
         frame: str | None,
     ) -> Goals:
         """The poses with the numbers of their targets. Raises as `correct`."""
-        goals = Goals.of(poses, near, len(self.arm.coupling.columns))
+        goals = Goals.of(poses, near, self.arm.coupling)
         frames, kinds = self.calibration.frames, len(self.calibration.estimate.noise)
         frame = frame or (BASE if len(frames.sockets) else INSTRUMENT)
         if frame not in FRAMES:
@@ -280,5 +281,5 @@ def load_correction(path: str | PathLike[str]) -> Correction:
 
     Raises InvalidFile.
     """
-    file = Path(path) if Path(path).is_file() else Path(path, NAME)
+    file = path_of(path) if os.path.isfile(path_of(path)) else Path(path, NAME)
     return Correction.from_archive(read_file(file, MOST), file)

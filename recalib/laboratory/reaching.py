@@ -9,9 +9,11 @@ from scipy.spatial import KDTree
 
 from recalib.arrays import array_of, check_rotations
 from recalib.errors import RecalibError
+from recalib.files.quantities import LENGTH
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
+from recalib.nominal.coupling import Coupling
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
 from recalib.nominal.poses import orientation_error, position_error
@@ -47,17 +49,19 @@ class Goals:
     targets: np.ndarray | None = None
 
     @classmethod
-    def of(cls, poses: ArrayLike, near: ArrayLike | None, joints: int) -> "Goals":
-        """From one pose or many. Raises InvalidSetting: other shapes, no poses."""
+    def of(cls, poses: ArrayLike, near: ArrayLike | None, coupling: Coupling) -> "Goals":
+        """From one pose or many. Raises InvalidSetting: other shapes, no poses, other units."""
         shapes = ("n", 4, 4), (4, 4), ("n", 3), (3,)
         given = array_of("poses", poses, *shapes)
         if given.shape[-2:] == (4, 4):
             check_rotations("poses", given)
         if given.ndim == 1 or given.shape == (4, 4):
             given = given[None]
+        goals = cls(given)
+        LENGTH.check("poses", goals.positions)
         if near is None:
-            return cls(given)
-        postures = array_of("near", near, (len(given), joints), *[(joints,)] * (len(given) == 1))
+            return goals
+        postures = coupling.given("near", near, (len(given),), *[()] * (len(given) == 1))
         return cls(given, np.atleast_2d(postures))
 
     def __len__(self) -> int:

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.identification.calibration import Calibration, turned
 from recalib.identification.checks.gains import WrongGain, wrong_gain
@@ -75,7 +74,7 @@ class Results:
         Raises InvalidSetting (another shape), UnknownName.
         """
         count, names = len(self.arm.coupling.columns), self.data.sight_names
-        given = array_of("joints", joints, ("n", count), (count,))
+        given = self.arm.coupling.given("joints", joints, ("n",), ())
         if target is not None and target not in names:
             raise UnknownName("target", target, names)
         number = 0 if target is None else names.index(target)

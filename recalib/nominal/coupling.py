@@ -6,8 +6,11 @@ from functools import cached_property
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from recalib.arrays import Shape, array_of
 from recalib.errors import UnsuitableRobot
+from recalib.files.quantities import ANGLE, LENGTH
 
 MOVING = "revolute", "continuous", "prismatic"
 
@@ -29,6 +32,16 @@ class Coupling:
     gains: np.ndarray
     shifts: np.ndarray
     limits: np.ndarray
+
+    def given(self, name: str, coordinates: ArrayLike, *shapes: Shape) -> np.ndarray:
+        """Coordinates (..., columns) [rad, m] that a caller gives, in one of these shapes.
+
+        Raises InvalidSetting: another shape, NaN, or a number too large for its unit.
+        """
+        array = array_of(name, coordinates, *((*shape, len(self.columns)) for shape in shapes))
+        for kind, chosen in ((ANGLE, ~self.slides), (LENGTH, self.slides)):
+            kind.check(name, array[..., chosen])
+        return array
 
     def joints(self, columns: np.ndarray) -> np.ndarray:
         """Coordinates (n, joints) of all joints from those reported (n, columns)."""

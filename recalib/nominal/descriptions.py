@@ -11,7 +11,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.files.storage import read_file
+from recalib.files.storage import path_of, read_file
 from recalib.files.xml import read_xml
 
 DATA = "example-robot-data"
@@ -43,14 +43,14 @@ def find_urdf(urdf: str | PathLike[str]) -> Path:
 
 def package_of(urdf: str | PathLike[str]) -> str | None:
     """The package that a name is of; None for a path to a file. Raises as `find_urdf`."""
-    path, name = Path(urdf), fspath(urdf)
-    if os.path.lexists(path) and not path.is_dir():
+    path, name = path_of(urdf), fspath(urdf)
+    if os.path.lexists(path) and not os.path.isdir(path):
         return None
     if name in _packaged_urdfs():
         return DATA
     if name.endswith("_description") and name.isidentifier():
         return FETCHED
-    if path.is_dir():
+    if os.path.isdir(path):
         raise InvalidFile(urdf, "it is a folder; expected: a file")
     if path.name != name:
         raise InvalidFile(urdf, "there is no such file")

@@ -67,7 +67,7 @@ def read_description(path: str | PathLike[str]) -> Description:
             _columns(parts.get("columns", {})),
             instrument,
             target,
-            _distances(parts.get("distance", [])),
+            distances_of(parts.get("distance", [])),
             near,
             next_to,
             encoders,
@@ -132,7 +132,8 @@ def _positive(key: str, text: Any, kind: Quantity) -> float:
     return number
 
 
-def _distances(given: Any) -> dict[tuple[str, str], float]:
+def distances_of(given: Any) -> dict[tuple[str, str], float]:
+    """Lengths [m] between two sockets, by their names in order. Raises InvalidSetting."""
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
     distances: dict[tuple[str, str], float] = {}
