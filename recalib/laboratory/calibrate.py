@@ -1,6 +1,6 @@
 """Calibration: from measurements to a calibrated arm and its cross-validated errors."""
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -119,9 +119,12 @@ def _frame(name: str, given: ArrayLike | None) -> np.ndarray | None:
     return pose
 
 
-def _names(kind: Columns, labels: object, count: int) -> np.ndarray:
+def _names(kind: Columns, labels: Any, count: int) -> np.ndarray:
     """Names (n,), as in the column of a table. Raises InvalidSetting and InvalidFile."""
-    given = [labels] if isinstance(labels, str) or not isinstance(labels, Iterable) else [*labels]
+    try:
+        given = [] if isinstance(labels, str) else [*labels]
+    except TypeError:  # a number
+        given = []
     if len(given) != count or not all(isinstance(label, Hashable) for label in given):
         raise InvalidSetting(kind.name, labels, f"{count} names")
     heading = kind.headings[0]

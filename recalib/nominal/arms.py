@@ -14,12 +14,13 @@ from recalib.nominal.descriptions import MOST, find_urdf, link_of, parsed
 from recalib.nominal.foreign_messages import caught_messages
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.urdf_checks import check_description, mistakes
+from recalib.spelling import listed
 
 KINDS = "fixed", "revolute", "continuous", "prismatic"
 NAMESAKE = " (joint)"  # after the name of one that is called like a link
 MOST_MOVING = 100  # joints between base and tool: the time for more grows with their cube
 UNBOUNDED = 1e300  # a limit that urdfdom can read, beyond which there is none
-FARTHEST, HEAVIEST = 1e3, 1e6  # m from a joint to the next, to the tool or a link's centre; kg
+FARTHEST, HEAVIEST = 50.0, 1e6  # m from a joint to the next, to the tool or a link's centre; kg
 
 
 def load_arm(urdf: str | PathLike[str], tool: str | None = None, base: str | None = None) -> Arm:
@@ -73,7 +74,7 @@ def _check(arm: Arm, path: Path) -> None:
     ):
         if not np.abs(placement.translation).max() < FARTHEST:
             far = f"{FARTHEST:g} m or more from what carries it"
-            raise UnsuitableRobot(f"{name} is {far} in {path}")
+            raise UnsuitableRobot(f"{name} is {far} in {path}; are its lengths in m?")
     for name, inertia in zip(arm.joints, list(model.inertias)[1:], strict=True):
         if not (0 <= inertia.mass < HEAVIEST and np.abs(inertia.lever).max() < FARTHEST):
             raise UnsuitableRobot(f"what {name} carries has no mass of an arm's link in {path}")
@@ -114,9 +115,12 @@ class _Tree:
         self.joints = {
             joint.get("name", "").removesuffix(NAMESAKE): joint for joint in robot.iterfind("joint")
         }
-        # of links in a circle, which hang on nothing, Pinocchio knows nothing
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
+        # of links in a circle, which hang on nothing, Pinocchio knows nothing
+        if lost := sorted(links.difference(self._links)):
+            found = f"{listed(lost, 'and')} of {path} hang in a circle, on no base"
+            raise UnsuitableRobot(f"{found}; expected: a tree")
         self.root = self._links[0]
 
     def link(self, role: str, name: str) -> str:

@@ -10,6 +10,7 @@ from recalib.errors import UnsuitableRobot
 from recalib.nominal.coupling import MOVING
 
 SHORTEST = 1e-6  # of an axis: Pinocchio may not normalise a shorter one
+MOST_TURN = 4 * np.pi  # rad in an origin: more are degrees
 NUMBERS = {  # attributes of joints and inertials
     "origin": ("xyz", "rpy"),
     "axis": ("xyz",),
@@ -46,9 +47,11 @@ def check_description(robot: Element, path: Path) -> None:
         for element in (inner for place in (part, *part.findall("inertial")) for inner in place):
             for key in NUMBERS.get(element.tag, ()):
                 numbers, text = _numbers(element.get(key, "0")), element.get(key)
+                found = f"the {element.tag} of {part.get('name')} in {path} has {key} {text!r}"
                 if not numbers:
-                    where = f"the {element.tag} of {part.get('name')} in {path}"
-                    raise UnsuitableRobot(f"{where} has {key} {text!r}; expected: a number")
+                    raise UnsuitableRobot(f"{found}; expected: a number")
+                if key == "rpy" and np.abs(numbers).max() > MOST_TURN:
+                    raise UnsuitableRobot(f"{found}; expected: rad, not degrees")
                 axis = element.tag == "axis" and part.get("type") in MOVING
                 if axis and not SHORTEST < np.abs(numbers).max() < 1 / SHORTEST:
                     reason = f"the axis of {part.get('name')} has no length"

@@ -29,16 +29,22 @@ POSES = np.tile(np.eye(4), (ROWS, 1, 1))
             np.degrees(JOINTS),
             POSES,
             {},
-            r"joints is 'up to 96.1'; expected: up to 720 deg; is its unit",
+            r"joints is 'up to 96.1 rad'; expected: up to 720 deg; is its unit",
         ),
-        (JOINTS, 900 * POSES[:, :3, 0], {}, "measured is 'up to 900'; expected: up to 10 m"),
+        (JOINTS, 900 * POSES[:, :3, 0], {}, "measured is 'up to 900 m'; expected: up to 10 m"),
         (JOINTS * 0, POSES, {}, "no joint moves in it"),
         (JOINTS, POSES[:5], {}, r"measured is 'of shape \(5, 4, 4\)'; expected: .* \(12, 3\) or"),
         (JOINTS, 2 * POSES, {}, "measured is 'matrices of something else'; expected: poses"),
         (JOINTS, POSES.swapaxes(1, 2) + np.eye(4, k=-3), {}, "matrices of something else"),
         (JOINTS, None, {}, "nothing was measured in it; expected: x, y, z or socket"),
         (JOINTS, POSES, {"sockets": ["a"] * ROWS}, "it has both positions and sockets"),
-        (JOINTS, POSES, {"targets": ["a"]}, r"targets is 'of shape \(1,\)'; expected: 12 names"),
+        (np.ma.masked_greater(JOINTS, 0.5), POSES, {}, "joints is 'masked in places'"),
+        (JOINTS, POSES, {"targets": [["a"], *"bcdefghijkl"]}, "expected: 12 names"),
+        (JOINTS, POSES, {"targets": "abcdefghijkl"}, "expected: 12 names"),
+        (JOINTS, POSES, {"targets": [None] * ROWS}, "row 1 of column 'target' is empty"),
+        (JOINTS, POSES, {"targets": [np.nan] * ROWS}, "row 1 of column 'target' is empty"),
+        (JOINTS, POSES, {"targets": ["a", "A"] * 6}, "differ only in capitals"),
+        (JOINTS, POSES, {"targets": ["a"]}, r"targets is \['a'\]; expected: 12 names"),
         (JOINTS, POSES, {"times": np.arange(ROWS)[::-1]}, "row 2 was measured before row 1"),
         (JOINTS, POSES, {"instrument": np.zeros(3)}, r"instrument is 'of shape \(3,\)'"),
         (JOINTS, POSES, {"distances": {("a", "b"): 1}}, "has a distance between sockets"),
@@ -67,6 +73,16 @@ ANY = st.one_of(
     arrays.arrays(st.sampled_from([np.float64, np.int64, np.bool_, np.complex128, "U3"]), SHAPES),
     arrays.arrays(np.float64, st.sampled_from([(ROWS, 3), (ROWS, 4, 4), (11, 3), (4, 4)])),
 )
+
+
+@given(
+    st.sampled_from(["ab", "", None, ("a",), ("a", "a"), ("a", "b", "c"), ("a", "c"), 3]),
+    st.one_of(ANY, st.floats(max_value=0), st.sampled_from([np.nan, "412 mm", 412, [0.3]])),
+)
+def test_distances_that_are_none_are_refused_by_name(arm, pair, length):
+    for distances in ({pair: 0.3}, {("a", "b"): length}, [("a", "b", 0.3)]):
+        with pytest.raises(RecalibError, match="distance|names socket 'c'"):
+            calibrate(arm, JOINTS, sockets=["a", "b"] * 6, distances=distances)
 
 
 @settings(max_examples=100)

@@ -123,8 +123,8 @@ CIRCLE = """<link name="one"/><link name="two"/>
         (
             SCARA.replace("</robot>", CIRCLE),
             ["one"],
-            UnknownName,
-            "tool link .* 'one'; expected: base",
+            UnsuitableRobot,
+            "one and two of .*small.urdf hang in a circle, on no base; expected: a tree",
         ),
         (urdf(("a", "revolute", "0 0 0", "0 0 0")), [], UnsuitableRobot, "axis of a has no length"),
         (
