@@ -20,7 +20,7 @@ from recalib.identification.validation import validate
 from recalib.laboratory.data_set import DataSet, data_set
 from recalib.laboratory.plausibility.knowledge import check_distances, frames_of, mistake_in
 from recalib.laboratory.plausibility.mistakes import check_nominal
-from recalib.laboratory.report.doubts import fault_in_words
+from recalib.laboratory.report.doubts import fault_in_words, gain_in_words
 from recalib.laboratory.report.summary import summary
 from recalib.laboratory.results import Results, without_shift
 from recalib.laboratory.tables.columns import SOCKETS, TARGETS, TIMES, Columns
@@ -197,7 +197,10 @@ def identified(
     except Untrustworthy as error:
         found = without_shift(error.faults, mistake)
         reasons = [fault_in_words(fault, data, frames) for fault in found]
-        reasons += [f"likely: {mistake}"] if mistake else []
+        if mistake:
+            reasons.append(f"likely: {mistake}")
+        elif error.gain:
+            reasons.append(gain_in_words(error.gain, arm))
         reasons += data.doubts
         ranges = data.rows_of_sights if len(data.tables) > 1 else []
         raise Untrustworthy("; ".join([str(error), *reasons, *ranges])) from None

@@ -23,7 +23,7 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Val
 from recalib.laboratory.correction import Commands, Correction
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.places import Place, found_places
-from recalib.laboratory.plausibility.mistakes import SHIFTED
+from recalib.laboratory.plausibility.mistakes import SHIFTED, mistake_of_outliers
 from recalib.laboratory.urdf.origins import corrected_urdf
 from recalib.nominal.descriptions import UrdfFile
 from recalib.nominal.kinematics import Arm
@@ -185,8 +185,15 @@ class Results:
         return Unseen(self.geometry.model, self.data.observations).directions.shape[1]
 
     @cached_property
+    def mistaken(self) -> str | None:
+        """What is likely wrong with outliers, in words."""
+        return mistake_of_outliers(self.geometry, self.data.observations)
+
+    @cached_property
     def faults(self) -> list[Fault]:
-        """What the order of the rows shows: a lag, a drift, a jump."""
+        """What the order of the rows shows: a lag, a drift, a jump; unless rows are mistaken."""
+        if self.mistaken:
+            return []
         return without_shift(faults(self.geometry, self.data.observations), self.mistake)
 
     @cached_property
@@ -196,8 +203,8 @@ class Results:
 
     @cached_property
     def displaced(self) -> list[Displaced]:
-        """Runs of outliers that are off alike."""
-        return displaced(self.geometry, self.data.observations)
+        """Runs of outliers that are off alike; unless rows are mistaken."""
+        return [] if self.mistaken else displaced(self.geometry, self.data.observations)
 
     @cached_property
     def wrong_gain(self) -> WrongGain | None:

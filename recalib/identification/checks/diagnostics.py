@@ -6,6 +6,7 @@ import numpy as np
 
 from recalib.errors import RecalibError
 from recalib.identification.calibration import Calibration
+from recalib.identification.checks.gains import WrongGain, wrong_gain
 from recalib.identification.checks.link_lengths import link_lengths
 from recalib.identification.checks.postures import Postures
 from recalib.identification.checks.sequence import Fault, faults
@@ -25,11 +26,12 @@ class Untrustworthy(RecalibError):
     Args:
         problem: what is wrong, in words.
         found: faults in the sequence of rows, which may be why.
+        gain: a joint that does not turn as its column says, likewise.
     """
 
-    def __init__(self, problem: str, found: Sequence[Fault] = ()):
+    def __init__(self, problem: str, found: Sequence[Fault] = (), gain: WrongGain | None = None):
         super().__init__(problem)
-        self.faults = found
+        self.faults, self.gain = found, gain
 
 
 def check_postures(postures: Postures) -> Postures:
@@ -60,6 +62,7 @@ def check_estimate(geometry: Calibration, observations: Observations) -> None:
             f" rows {', '.join(map(str, rows))} (the first is 1); expected: up to"
             f" {1e3 * NOISIEST[0]:.0f} mm and {np.degrees(NOISIEST[1]):.0f} deg",
             faults(geometry, observations),
+            wrong_gain(geometry, observations),
         )
 
 

@@ -88,7 +88,8 @@ def mistake_in(arm: Arm, observations: Observations, frames: Frames | None = Non
         return None
     # what explains whole poses is likelier than what explains their positions alone
     for part in (measured, observations.positions)[: observations.kinds]:
-        if mistake := likely_mistake(arm, observations.joints, part, FARTHEST, 1, frames):
+        most = 2 if frames is None else 1  # of rows that fit, more would be guesses
+        if mistake := likely_mistake(arm, observations.joints, part, FARTHEST, most, frames):
             return mistake
     return None
 

@@ -14,7 +14,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
+from recalib.identification.calibration import Calibration
 from recalib.identification.closed_forms import solutions
+from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.linearisation import LEVER, displacements
 from recalib.identification.model.observations import Observations
@@ -34,6 +36,7 @@ UNITS = {  # wrong units of positions, by the factor that corrects them
     1e3: "in metres labelled mm",
 }
 SAME = 1e-6  # a difference of such parts below which two mistakes explain the same
+FEWEST = 3  # outliers that one mistake has to explain
 ENOUGH = 40  # rows to try mistakes on
 QUARTERS = 90, -90, -180  # degrees
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: less is not reported
@@ -125,7 +128,7 @@ def likely_mistake(
     steps = [*_steps(arm), *(_steps_of_rotations() if measured.ndim == 3 else ())]
     for count in range(1, most_steps + 1):
         fits = []
-        for chosen in combinations(steps, count):
+        for chosen in combinations(steps if count > 1 else [*steps, *_rare_steps(arm)], count):
             joints, righted = coordinates, measured
             for step in chosen:
                 joints, righted = step.joints(joints), step.measured(righted)
@@ -140,6 +143,27 @@ def likely_mistake(
             # as the sign of a joint and a half turn of the next one, behind a base of any turn
             return listed([words for other, *_, words in fits if other <= part + SAME], "or")
     return None
+
+
+def mistake_of_outliers(geometry: Calibration, observations: Observations) -> str | None:
+    """What is likely wrong with outliers alone, in a sentence without its full stop; or None."""
+    rows = np.flatnonzero(geometry.estimate.weights < DOUBTFUL)
+    if observations.measured is None or len(rows) < FEWEST:
+        return None
+    joints, measured = observations.joints[rows], observations.measured[rows]
+    turned = _steps_of_rotations() if measured.ndim == 3 else ()
+    arm, fits = geometry.model.nominal, []
+    for step in (Step(""), *_steps(arm), *_rare_steps(arm), *turned):
+        if step.words.startswith(SHIFTED):  # of which outliers know nothing
+            continue
+        poses = geometry.predict(step.joints(joints), observations.targets[rows])
+        fits.append((_gaps(poses, step.measured(measured), np.eye(4), np.eye(4)), step.words))
+    gaps, words = min(fits, key=lambda fit: np.median(fit[0]))
+    wrong = rows[gaps < np.minimum(ALIKE, EXPLAINED * fits[0][0])] + 1
+    if len(wrong) < max(FEWEST, len(rows) / 2):
+        return None
+    some = f"{len(wrong)} rows, from {wrong[0]} to {wrong[-1]},"
+    return f"{some} probably contain a mistake, without which they fit the others: {words}"
 
 
 class Step(NamedTuple):
@@ -161,7 +185,7 @@ def _steps(arm: Arm) -> Iterator[Step]:
     for factor, words in UNITS.items():
         yield Step(f"positions {words}", measured=partial(_scaled, factor))
     mirror = partial(_scaled, -1.0)
-    yield Step("positions with a reversed axis", measured=mirror)
+    yield Step("positions with a reversed axis, or two exchanged", measured=mirror)
     for joint, name in enumerate(arm.joints):
         yield Step(f"the sign of {name}", partial(np.multiply, 1 - 2 * each[joint]))
     for joint, name in enumerate(arm.joints):
@@ -184,6 +208,26 @@ def _steps(arm: Arm) -> Iterator[Step]:
     yield Step("the joint columns in reverse order", np.fliplr)
     for rows, row in ((-1, "before"), (1, "after")):
         yield Step(f"{SHIFTED} {row}", partial(np.roll, shift=rows, axis=0))
+
+
+def _rare_steps(arm: Arm) -> Iterator[Step]:
+    """Mistakes in one column of many, or in all joints: each is tried by itself."""
+    yield Step("the signs of all joints", np.negative)
+    turns = {
+        "degrees labelled rad": np.pi / 180,
+        "radians labelled deg": 180 / np.pi,
+        "half of its turn": 2.0,
+        "twice its turn": 0.5,
+    }
+    each = np.eye(len(arm.joints))
+    for joint in np.flatnonzero(~arm.slides):
+        for words, factor in turns.items():
+            scale = partial(np.multiply, 1 + (factor - 1) * each[joint])
+            yield Step(f"a column {arm.joints[joint]} that holds {words}", scale)
+    for axis, name in enumerate("xyz"):
+        for factor in (1e-3, 1e3):
+            scale = partial(_scaled, 1 + (factor - 1) * np.eye(3)[axis])
+            yield Step(f"a column {name} {UNITS[factor]}", measured=scale)
 
 
 def _steps_of_rotations() -> Iterator[Step]:
@@ -214,8 +258,8 @@ def _angles(rotations: Rotation) -> np.ndarray:
     return rotations.as_euler("xyz", suppress_warnings=True)
 
 
-def _scaled(factor: float, measured: np.ndarray) -> np.ndarray:
-    """Positions (n, 3), or poses (n, 4, 4), with positions times a factor."""
+def _scaled(factor: float | np.ndarray, measured: np.ndarray) -> np.ndarray:
+    """Positions (n, 3), or poses (n, 4, 4), with positions times a factor, or (3,)."""
     scaled = measured.copy()
     places = scaled if measured.ndim == 2 else scaled[:, :3, 3]
     places *= factor

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from recalib.identification.checks.gains import WrongGain
 from recalib.identification.checks.poses import turned_axes
 from recalib.identification.checks.sequence import Fault
 from recalib.identification.model.frames import HELD, Frames
@@ -12,6 +13,7 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RAND
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.templates import render
 from recalib.laboratory.results import Results
+from recalib.nominal.kinematics import Arm
 
 RESIZED = 0.015  # of a size: all links together are seldom so much longer
 TOGETHER = 0.3  # the part of residuals that remains if one factor for all links explains them
@@ -29,6 +31,9 @@ def doubts(result: Results) -> Iterator[str]:
         "doubts.txt.j2",
         result=result,
         faults=[fault_in_words(fault, result.data, result.frames) for fault in result.faults],
+        gain=result.wrong_gain
+        and not result.mistake
+        and gain_in_words(result.wrong_gain, result.arm),
         outvoted=[*_outvoted(result)],
         worn=_worn(result),
         axes=turned_axes(result.arm.forward(result.data.observations.joints))
@@ -59,6 +64,11 @@ def fault_in_words(fault: Fault, data: DataSet, frames: Frames) -> str:
         timed=observations.times is not None,
         rows=np.count_nonzero(series == series[observations.targets == sight][0]),
     )
+
+
+def gain_in_words(wrong: WrongGain, arm: Arm) -> str:
+    """A joint that does not turn as its column says: a sentence without its full stop."""
+    return render("gain.txt.j2", wrong=wrong, joints=arm.joints).strip()
 
 
 def _outvoted(result: Results) -> Iterator[tuple[str, int, int]]:

@@ -36,6 +36,7 @@ from recalib.spelling import counted, listed
 PREFIX = "joint "  # before the name of a joint that is also the heading of a measured column
 SKEW = 0.01  # of a quaternion's length, as instruments round it
 COPIES = 0.1  # of the rows, at most: no instrument repeats itself so often to the last digit
+MOVED = 0.05  # rad, m: by as much in two joints, a target is elsewhere
 STILL = 1e-3  # rad, m: a joint that moves less could as well be held by its brake
 
 
@@ -165,7 +166,9 @@ def check_measured(rows: Measurements) -> Measurements:
         raise InvalidFile(rows.path, "nothing was measured in it; expected: x, y, z or socket")
     if rows.measured is not None and sockets:
         raise InvalidFile(rows.path, "it has both positions and sockets; expected: one of them")
-    return _check_rows(rows)
+    _check_rows(rows)
+    _check_stuck(rows)
+    return rows
 
 
 def _check_rows(rows: Measurements) -> Measurements:
@@ -183,6 +186,19 @@ def _check_rows(rows: Measurements) -> Measurements:
     if (np.ptp(rows.joints, axis=0) < STILL).all():
         raise InvalidFile(rows.path, "no joint moves in it; expected: rows of different postures")
     return rows
+
+
+def _check_stuck(rows: Measurements) -> None:
+    """Raise InvalidFile if the arm moved and measurements stayed the same to the last digit."""
+    if rows.measured is None or rows.joints is None:
+        return
+    moved = (np.abs(np.diff(rows.joints, axis=0)) > MOVED).sum(axis=1) > 1
+    equal = (np.diff(rows.measured.reshape(len(rows), -1), axis=0) == 0).all(axis=1)
+    if len(stuck := np.flatnonzero(moved & equal)) > 1:
+        found = f"{len(stuck)} of its rows, such as {stuck[0] + 2}, repeat the measurement before"
+        raise InvalidFile(
+            rows.path, f"{found}, in another posture; expected: the target in sight; try: omit them"
+        )
 
 
 def _check_copies(table: Table) -> None:
