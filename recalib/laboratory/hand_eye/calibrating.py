@@ -16,7 +16,7 @@ from recalib.laboratory.pictures.observe import observe, pictures_in
 from recalib.laboratory.pictures.observed import LENS, PICTURE, SETUP, Observed, views_of
 from recalib.laboratory.places import hand_eye_places
 from recalib.laboratory.report.templates import render
-from recalib.laboratory.tables.measurements import pose_rows
+from recalib.laboratory.tables.measurements import check_copies, pose_rows
 from recalib.laboratory.tables.table import table_text
 from recalib.spelling import counted
 from recalib.vision.lens_search import moved_lens
@@ -177,6 +177,8 @@ def calibrate_poses(
         if len(flange) != len(targets):
             valid = f"expected: {len(flange)}, as in {flange.table.path.name}"
             raise InvalidFile(targets.table.path, f"it has {counted(len(targets), 'row')}; {valid}")
+        own = {f"{name} of the flange": cells for name, cells in flange.table.cells.items()}
+        check_copies(replace(targets.table, cells={**own, **targets.table.cells}))
     else:
         pictures, by_lens = shown, (shown.given is None, False)
         flange = flange[np.array([picture.row - 1 for picture in shown.used])]

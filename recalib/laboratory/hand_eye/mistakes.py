@@ -20,11 +20,13 @@ from recalib.laboratory.plausibility.mistakes import UNITS
 from recalib.spelling import counted
 
 FEWEST = 6  # poses: each has 6 numbers, and 12 are sought
+NEAREST = 0.02  # m: no camera has a focused board nearer
 ALIKE = 2.0  # deg: orientations that differ by less
 WRONG, HOPELESS = 5e-3, 50e-3  # m: few arms and cameras leave as much; none does
 EXPLAINED = 0.3  # the part of what remains that may remain without a mistake
 OPEN = 0.05, np.radians(5)  # m, rad: a deviation as large is no result
 LOOSE = 1e-2  # a singular value so small, over the largest, leaves a direction open
+OPEN_SIZE = 0.1  # of such a direction: then it is one of the size
 SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it has to be off
 TILT = "try: poses that are tilted by 20 deg or more, about two axes"
 
@@ -38,6 +40,12 @@ def check_motion(sights: Sights) -> None:
     if len(sights) < FEWEST:
         found = f"{counted(len(sights), 'pose')} can be used"
         raise Mistaken(f"{found}; expected: at least {FEWEST}, better 15 or more")
+    distance = float(np.median(np.linalg.norm(sights.board[:, :3, 3], axis=1)))
+    if distance < NEAREST:
+        raise Mistaken(
+            f"the board is {1e3 * distance:.2g} mm from the camera; expected: at least"
+            f" {1e3 * NEAREST:.0f} mm; try: --unit, or another unit in the heading"
+        )
     (most, second, _), axes = sights.axes
     if most < ALIKE:
         raise Mistaken(
@@ -62,9 +70,10 @@ def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> N
     fits = remaining < WRONG
     sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
     scale, deviation, left = min(sizes, key=lambda size: size[2])
-    if fits or left < EXPLAINED * remaining:
+    if fits or (left < EXPLAINED * remaining and deviation < SIZE):
         _check_size(scale, deviation)
     if not fits:
+        _check_height(found.sights, remaining)
         _check_readings(found.sights, flange, targets, remaining)
     for part, name in enumerate(("camera", "board")):
         position, turn = found.deviations(part)
@@ -73,6 +82,18 @@ def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> N
                 f"the {name}'s place is known to {1e3 * position:.0f} mm and"
                 f" {np.degrees(turn):.1f} deg only; {TILT}, and that are decimetres apart"
             )
+
+
+def _check_height(sights: Sights, remaining: float) -> None:
+    """Raise Mistaken if poses fit much better without the height, which they determine, too."""
+    if sights.height is None or sights.axes[0][1] < ONE_AXIS:
+        return
+    best = min(start.misfit for start in starts(replace(sights, height=None)))
+    if best < EXPLAINED * remaining:
+        raise Mistaken(
+            f"the poses do not fit the height ({1e3 * remaining:.3g} mm remain), but they do"
+            f" ({1e3 * best:.3g} mm) without --height, which they determine, too"
+        )
 
 
 def board_size(found: HandEye) -> tuple[float, float, float]:
@@ -86,6 +107,9 @@ def board_size(found: HandEye) -> tuple[float, float, float]:
     unit = np.tile(np.eye(3), (len(rows), 1, 1))
     system = np.concatenate([places[:, :, None], unit, -between[:, :3, :3]], axis=2)
     goal, rows_of = between[:, :3, 3], system.reshape(-1, 7)
+    _, strengths, directions = np.linalg.svd(rows_of, full_matrices=False)
+    if np.abs(directions[strengths < LOOSE * strengths[0], 0]).max(initial=0.0) > OPEN_SIZE:
+        return 1.0, np.inf, np.inf  # a flange that only turns tells nothing of sizes
     best = np.linalg.lstsq(rows_of, goal.ravel(), rcond=LOOSE)[0]
     errors = goal - system @ best
     variance = np.sum(errors**2) / max(1, errors.size - 7)

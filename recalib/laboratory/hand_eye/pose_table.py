@@ -22,7 +22,7 @@ from recalib.laboratory.tables.columns import (
     Columns,
 )
 from recalib.laboratory.tables.measurements import TURNS
-from recalib.laboratory.tables.table import MOST, Table, table_of
+from recalib.laboratory.tables.table import MOST, Table, number_in, table_of
 from recalib.spelling import listed
 
 NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions, and of matrices
@@ -30,6 +30,7 @@ SKEW = 0.02  # of a norm, as people round them
 _BETWEEN = re.compile(r"[\s,;]+")
 _COMMENT = re.compile(r"^\s*(#|%|//).*\n?", re.MULTILINE)
 _LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # e is in 1e-3
+_NAN = re.compile(r"\b(nan|inf|infinity)\b", re.IGNORECASE)
 _ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler's angles; no axis twice in a row
 
 
@@ -99,6 +100,8 @@ def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
     if numbers.shape[1] == 4:
         yield "a quaternion w, x, y, z", scalar_first(numbers)
         yield "a quaternion x, y, z, w", Rotation.from_quat(numbers)
+    if numbers.shape[1] == 9:
+        yield "transposed", Rotation.from_matrix(numbers.reshape(-1, 3, 3).swapaxes(1, 2))
     if numbers.shape[1] == 3:
         for scale, unit in ((1.0, ""), (np.pi / 180, " [deg]"), (180 / np.pi, " [rad]")):
             yield f"a rotation vector{unit}", Rotation.from_rotvec(scale * numbers)
@@ -156,7 +159,7 @@ def read_poses(
     """
     way = None if convention is None else convention_of(convention)
     text = _COMMENT.sub("", read_file(path, MOST).decode("utf-8-sig", "replace"))
-    if not _LETTERS.search(text):
+    if not _LETTERS.search(_NAN.sub("", text)):
         text = _headed(text, Path(path), way)
     head, _, rest = text.partition("\n")
     table = table_of(f"{head.lower()}\n{rest}".encode(), path)
@@ -199,15 +202,24 @@ def _headed(text: str, path: Path, way: Convention | None) -> str:
         rows = rows[1:]
     if {len(row) for row in rows} == {4} and len(rows) % 4 == 0:
         rows = [[*chain(*rows[first : first + 4])] for first in range(0, len(rows), 4)]
+    if not rows:
+        raise InvalidFile(path, "it is empty")
     if len({len(row) for row in rows}) > 1:
         raise InvalidFile(path, "its rows have different lengths; expected: a pose in each row")
-    count, headings = len(rows[0]) if rows else 0, [*POSE]
+    count, headings = len(rows[0]), [*POSE]
+    ends = [row[12:] for row in rows if [*map(number_in, row[12:])] != [0, 0, 0, 1]]
+    if count == 16 and ends:
+        found = f"the last row of a matrix is {' '.join(ends[0])}; expected: 0 0 0 1"
+        raise InvalidFile(path, f"{found}; is it transposed?")
     if count not in (12, 16):
         if way is None:
             raise InvalidFile(path, "it has no headings; try: --convention, such as ur or kuka")
         headings = [*POSITIONS.headings, *way.headings]
-        headings = ["time", *headings] if count == len(headings) + 1 else headings
+        begins = [number_in(row[0]) for row in rows]
+        if count == len(headings) + 1 and (np.diff(begins) >= 0).all():
+            headings = ["time", *headings]
         if count != len(headings):
             valid = f"{len(headings)}, {', '.join(headings)}"
+            valid += "; has it decimal commas?" * (count == 2 * len(headings))
             raise InvalidFile(path, f"it has {count} numbers in a row; expected: {valid}")
     return "\n".join(",".join(row) for row in (headings[:count], *rows))

@@ -87,7 +87,7 @@ def read_measurements(
     """
     table = read_table(path, description.columns if description else None)
     rows = check_measured(_read(table, arm, MEASURED))
-    _check_copies(table)
+    check_copies(table)
     return rows
 
 
@@ -201,7 +201,7 @@ def _check_stuck(rows: Measurements) -> None:
         )
 
 
-def _check_copies(table: Table) -> None:
+def check_copies(table: Table) -> None:
     """Raise InvalidFile if many rows are copies: they would count as measured anew."""
     first: dict[tuple[str, ...], int] = {}
     rows = enumerate(zip(*table.cells.values(), strict=True), 1)

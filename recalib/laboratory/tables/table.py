@@ -100,7 +100,7 @@ class Table:
             units = sorted(quantity.units)
             valid = listed((f"{column} [{unit}]" if unit else column for unit in units), "or")
             raise InvalidFile(self.path, f"column {column!r} {found}; expected: {valid}")
-        numbers = np.array([_number(cell) for cell in self.cells[column]])
+        numbers = np.array([number_in(cell) for cell in self.cells[column]])
         self._check(column, np.isfinite(numbers), "expected: a number")
         numbers *= quantity.units[unit]
         if np.isfinite(quantity.farthest):
@@ -224,7 +224,7 @@ def _date(cell: str) -> float:
     return (date if date.tzinfo else date.replace(tzinfo=UTC)).timestamp()
 
 
-def _number(cell: str) -> float:
+def number_in(cell: str) -> float:
     """The number in a cell; NaN without one. Python alone reads 1_0, as ten."""
     try:
         return math.nan if "_" in cell else float(cell)
