@@ -6,6 +6,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from recalib.arrays import array_of
 from recalib.learners import kernels
 from recalib.learners.maps import Maps
 from recalib.learners.rules import Rules
@@ -38,7 +39,11 @@ class HierarchicalLearner:
         self._rate = start, end, rules.rate_power
 
     def command(self, desired: np.ndarray) -> np.ndarray:
-        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
+        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6).
+
+        Raises InvalidSetting: another shape, NaN.
+        """
+        desired = array_of("desired", desired, (self._runs, "n", 6))
         self.maps.settle()
         return kernels.commands(tuple(self.maps.cells), np.ascontiguousarray(desired))
 

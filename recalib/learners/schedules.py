@@ -77,7 +77,9 @@ class Schedule:
                 raise InvalidSetting("learning rate", rate, "above 0 and at most 1")
 
     def over(self, runs: int) -> "Schedule":
-        """The same for a number of runs, all arrays (run,)."""
+        """The same for a number of runs, all arrays (run,). Raises InvalidSetting: no number."""
+        if not isinstance(runs, int | np.integer) or runs < 1:
+            raise InvalidSetting("runs", runs, "a whole number, at least 1")
         return self._with(lambda number: np.full(runs, number))
 
     def widths(self, maps: Collection[str]) -> tuple[np.ndarray, np.ndarray]:

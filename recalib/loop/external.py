@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from recalib.loop.interfaces import Outcome
-from recalib.loop.measurements import check_pose
+from recalib.loop.measurements import checked_pose
 from recalib.nominal.poses import Workspace
 
 
@@ -53,6 +53,6 @@ class ExternalRobot:
             if measured is None:
                 measured = self.workspace.centre
             else:
-                check_pose(measured, self.workspace.centre)
+                measured = checked_pose(measured, self.workspace.centre)
             poses[index] = measured
         return poses, executed

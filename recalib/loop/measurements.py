@@ -1,6 +1,7 @@
 """Checks of a measured pose: one that is none, or grossly off, is refused by name."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from recalib.errors import BadMeasurement
 
@@ -9,14 +10,20 @@ SKEW = 0.01  # of a rotation matrix, as instruments round it
 POSE = "a rotation and a position, above a row of 0, 0, 0, 1"
 
 
-def check_pose(measured: np.ndarray, expected: np.ndarray) -> None:
-    """Raise BadMeasurement unless a measured pose is one, and not grossly off.
+def checked_pose(given: ArrayLike, expected: np.ndarray) -> np.ndarray:
+    """A measured pose (4, 4) [m] in the base frame.
 
     Args:
-        measured: (4, 4) m in the base frame, if it is as it should be.
+        given: by the robot.
         expected: (4, 4) likewise, to which it must be near.
+
+    Raises BadMeasurement: it is no pose, or grossly off.
     """
-    if np.shape(measured) != (4, 4):
+    try:
+        measured = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):  # something else than numbers
+        measured = np.empty(0)
+    if measured.shape != (4, 4):
         valid = "a matrix (4, 4)"
     elif not np.isfinite(measured).all():
         valid = "numbers"
@@ -25,7 +32,7 @@ def check_pose(measured: np.ndarray, expected: np.ndarray) -> None:
     elif np.linalg.norm(measured[:3, 3] - expected[:3, 3]) > FARTHEST:
         valid = f"m in the base frame, at most {FARTHEST:g} m from the workspace's centre"
     else:
-        return
+        return measured
     raise BadMeasurement("the robot", np.ravel(measured), valid)
 
 

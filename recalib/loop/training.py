@@ -9,6 +9,7 @@ from typing import Self
 
 import numpy as np
 
+from recalib.arrays import array_of
 from recalib.errors import InvalidSetting
 from recalib.loop.interfaces import Commandable, Learner
 from recalib.nominal.poses import Workspace, pose_errors
@@ -110,8 +111,13 @@ def train(
             cm and degrees.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
 
-    Raises InvalidSetting: a measurement after more iterations than there are, or none at all.
+    Raises InvalidSetting: poses of other shapes, or none to measure on; a measurement after more
+    iterations than there are, or none at all.
     """
+    desired = array_of("desired", desired, ("n", "n", 6), ("n", 6))
+    tests = array_of("tests", tests, (*desired.shape[:-2], "n", 6))
+    if not tests.size:
+        raise InvalidSetting("tests", f"of shape {tests.shape}", "at least one pose")
     if desired.ndim == 2:
         poses = desired[None], tests[None]
         return train(plant, learner, *poses, measure_at, progress, error).of_run(0)

@@ -15,6 +15,7 @@ from tests.laboratory.conftest import postures
 ROWS = 12
 JOINTS = postures(1, ROWS)
 POSES = np.tile(np.eye(4), (ROWS, 1, 1))
+POSES[:, 0, 3] = 0.01 * np.arange(ROWS)
 
 
 @pytest.mark.parametrize(
@@ -36,6 +37,12 @@ POSES = np.tile(np.eye(4), (ROWS, 1, 1))
         (JOINTS, POSES[:5], {}, r"measured is 'of shape \(5, 4, 4\)'; expected: .* \(12, 3\) or"),
         (JOINTS, 2 * POSES, {}, "measured is 'matrices of something else'; expected: poses"),
         (JOINTS, POSES.swapaxes(1, 2) + np.eye(4, k=-3), {}, "matrices of something else"),
+        (
+            JOINTS,
+            0 * POSES[:, :3, 0],
+            {},
+            "11 of its rows, such as 2, repeat the measurement before",
+        ),
         (JOINTS, None, {}, "nothing was measured in it; expected: x, y, z or socket"),
         (JOINTS, POSES, {"sockets": ["a"] * ROWS}, "it has both positions and sockets"),
         (np.ma.masked_greater(JOINTS, 0.5), POSES, {}, "joints is 'masked in places'"),
@@ -77,7 +84,10 @@ ANY = st.one_of(
 
 @given(
     st.sampled_from(["ab", "", None, ("a",), ("a", "a"), ("a", "b", "c"), ("a", "c"), 3]),
-    st.one_of(ANY, st.floats(max_value=0), st.sampled_from([np.nan, "412 mm", 412, [0.3]])),
+    st.one_of(
+        st.floats(max_value=0),
+        st.sampled_from([np.nan, "412 mm", 412, [0.3], np.array([0.3]), None, True]),
+    ),
 )
 def test_distances_that_are_none_are_refused_by_name(arm, pair, length):
     for distances in ({pair: 0.3}, {("a", "b"): length}, [("a", "b", 0.3)]):

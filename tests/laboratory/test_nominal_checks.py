@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -6,8 +8,13 @@ from scipy.spatial.transform import Rotation
 from recalib import Observations, initial_frames, load_arm
 from recalib.identification import NoInitialEstimate
 from recalib.laboratory.plausibility.knowledge import checked_frames, mistake_in
-from recalib.laboratory.plausibility.mistakes import WrongNominal, check_nominal, likely_mistake
-from tests.identification.real import Real
+from recalib.laboratory.plausibility.mistakes import (
+    WrongNominal,
+    check_nominal,
+    likely_mistake,
+    mistake_of_outliers,
+)
+from tests.identification.real import Real, geometry_of
 
 TOOL_POINT = pin.SE3(np.eye(3), np.array([0.0, 0.02, 0.12])).homogeneous  # m
 
@@ -89,6 +96,19 @@ MISTAKES = {
         lambda q, p: (changed(changed(q, 2, np.negative), 3, lambda c: c - np.pi / 2), p),
         "the sign of elbow_joint and the zero of wrist_1_joint, off by -90 deg",
     ),
+    "the unit of one joint": (
+        lambda q, p: (changed(q, 2, np.radians), p),
+        "a column elbow_joint that holds radians labelled deg",
+    ),
+    "half of a joint": (
+        lambda q, p: (changed(q, 1, lambda column: column / 2), p),
+        "a column shou",
+    ),
+    "the unit of one axis": (
+        lambda q, p: (q, p * [1, 1e-3, 1]),
+        "a column y in metres labelled",
+    ),
+    "all signs": (lambda q, p: (-q, p), "the signs of all joints"),
     "base turned": (lambda q, p: (q, p @ turned(-90)[:3, :3].T), "the base turned by 90.0 deg"),
 }
 
@@ -198,13 +218,14 @@ def test_so_are_poses_of_something_else(spoil, words, arm):
     ("spoil", "words"),
     [
         (lambda q: q[:, [0, 1, 2, 4, 3, 5]], "the columns of wrist_1_joint and wrist_2_joint exch"),
+        (lambda q: q[:, [1, 2, 0, 3, 4, 5]], "the columns of shoulder_pan_joint and shoulder_lift"),
         (lambda q: changed(q, 5, np.negative), "the sign of wrist_3_joint"),
         (
             lambda q: changed(q, 0, np.negative),
             "the sign of shoulder_pan_joint or the zero of shoulder_lift_joint, off by 180 deg",
         ),
     ],
-    ids=["exchanged", "the last sign", "the first sign"],
+    ids=["exchanged", "three of them", "the last sign", "the first sign"],
 )
 def test_of_poses_joints_are_blamed_that_hardly_move_positions(spoil, words, arm):
     """With them, positions alone are explained: that looks as if the rotations were wrong."""
@@ -249,3 +270,26 @@ def test_a_mistake_leaves_no_row_far_off(arm, joints, nominal):
 def test_another_arm_is_no_mistake_of_a_column(joints, nominal):
     with pytest.raises(WrongNominal, match="is it another arm"):
         check_nominal(load_arm("ur5_robot.urdf", "tool0"), joints, nominal)
+
+
+@pytest.mark.parametrize("count", [3, 8])
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda q, p: (np.radians(q), p), "joint columns in radians labelled deg"),
+        (lambda q, p: (changed(q, 2, np.radians), p), "a column elbow_joint that holds radians"),
+        (lambda q, p: (q, p * 1e-3), "positions in metres labelled mm"),
+        (lambda q, p: (changed(q, 2, np.negative), p), "the sign of elbow_joint"),
+    ],
+    ids=["units of joints", "unit of a joint", "unit of positions", "sign"],
+)
+def test_a_mistake_in_some_rows_is_named(spoil, words, count, arm):
+    real = Real(arm, 2)
+    joints = real.postures(40)
+    places = real.poses(joints)[:, :3, 3]
+    geometry = geometry_of(arm, Observations(joints, places))
+    assert mistake_of_outliers(geometry, Observations(joints, places)) is None
+    joints[-count:], places[-count:] = spoil(joints[-count:], places[-count:])
+    rows = Observations(joints, places)
+    told = mistake_of_outliers(geometry_of(arm, rows), rows)
+    assert told and re.match(f"{count} rows, from {41 - count} to 40, .*: {words}", told)

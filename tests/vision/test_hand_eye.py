@@ -15,9 +15,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.hand_eye import calibrate_hand_eye, held_out
+from recalib.errors import InvalidFile
+from recalib.identification.hand_eye import Sights, calibrate_hand_eye, held_out
 from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
+from recalib.laboratory.hand_eye.mistakes import board_size
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.vision.views import projected
 from tests.vision.hand_eye_cells import HandEyeCell, turned
@@ -154,6 +156,9 @@ def test_matrices(rows, count, tmp_path):
             "it has a matrix that is not a rotation: Non-positive determinant",
         ),
         ("1 0 0 512 0 1 0 80 0 0 1 300", "Is its unit right?"),
+        ("1 0 0 0 0 1 0 0 0 0 1 0 .5 .1 .3 1", "is .5 .1 .3 1; expected: 0 0 0 1; is it tran"),
+        ("1 0 0 nan 0 1 0 .1 0 0 1 .3", "row 1 of column 'x' is 'nan'; expected: a number"),
+        ("", "it is empty"),
     ],
 )
 def test_a_bad_table_is_refused(text, message, tmp_path, monkeypatch, capsys):
@@ -161,6 +166,17 @@ def test_a_bad_table_is_refused(text, message, tmp_path, monkeypatch, capsys):
     (tmp_path / "poses.txt").write_text(text)
     main(["calibrate", "--poses", "poses.txt", "--targets", "poses.txt", "--out", "out"])
     assert message in capsys.readouterr().err
+
+
+def test_decimal_commas_and_numbers_too_many_are_named(tmp_path):
+    (path := tmp_path / "poses.txt").write_text("1,5 " * 7)
+    with pytest.raises(InvalidFile, match="it has 14 numbers .*; has it decimal commas?"):
+        read_poses(path, "ros")
+    path.write_text("1 0 0 0 1 0 0\n2 0 0 0 1 0 0")  # the time is ahead
+    assert len(read_poses(path, "ur")) == 2
+    path.write_text("2 0 0 0 1 0 0\n1 0 0 0 1 0 0")
+    with pytest.raises(InvalidFile, match="it has 7 numbers in a row; expected: 6"):
+        read_poses(path, "ur")
 
 
 @pytest.mark.parametrize("in_hand", [False, True])
@@ -241,11 +257,23 @@ def about_one_axis(cell: HandEyeCell) -> np.ndarray:
     return flange
 
 
+def turning(cell: HandEyeCell) -> np.ndarray:
+    """Turns about a point, after which nothing tells of sizes."""
+    flange = cell.flange(POSES)
+    flange[:, :3, 3] = flange[0, :3, 3]
+    return flange
+
+
 FAULTS = {  # what is done to poses of the flange, true ones and (n, 4, 4); what is said
     "one axis": (about_one_axis, None, "all turns are about one axis"),
     "alike": (alike, None, "all poses are turned alike"),
     "too few": (lambda cell: cell.flange(4), None, "4 poses can be used; expected: at least 6"),
     "direction": (None, np.linalg.inv, "the flange's poses are those of the base in it"),
+    "copies": (
+        lambda cell: cell.flange(9)[[0] * 6 + [*range(9)]],
+        lambda said: said[[0] * 6 + [*range(6, 15)]],
+        "5 of its 15 rows are copies of others",
+    ),
     "board size": (None, lambda said: scaled(said, 1.05), "larger than described"),
     "millimetres as metres": (None, lambda said: scaled(said, 1e3), "Is its unit right?"),
     "metres as millimetres": (None, lambda said: scaled(said, 1e-3), "in metres labelled mm"),
@@ -288,6 +316,20 @@ def test_four_axes_need_a_height(in_hand, tables, tmp_path, capsys):
     place = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())["camera"]
     length = 1e-3 * float(place["deviation"][0].split()[0])
     assert off(np.array(place["matrix"]), cell.camera)[0] < 4 * length
+
+
+def test_a_height_that_contradicts_the_poses_is_named(tables, capsys):
+    tables(HandEyeCell(4, True))
+    assert calibrate("--height", "400 mm +- 1 mm", camera="hand") == REFUSED
+    assert "without --height, which they determine" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_a_flange_that_only_turns_is_no_board_of_another_size(in_hand):
+    cell = HandEyeCell(3, in_hand)
+    flange = turning(cell)
+    sights = Sights(cell.said(flange), cell.seen(flange), in_hand, None)
+    assert board_size(calibrate_hand_eye(sights))[1] == np.inf
 
 
 def test_poses_that_fit_badly_are_no_result(tables, capsys):
