@@ -48,6 +48,7 @@ def result(
         geometry=geometry,
         scales={},
         mistake=None,
+        mistaken=None,
         wrong_gain=None,
         displaced=[],
         exchanged=None,

@@ -126,6 +126,7 @@ def measurements_so_far(
     rows = _read(table_of(content, path, description.columns), arm, MEASURED)
     if rows.measured is None:
         raise InvalidFile(path, "no positions are measured in it; expected: x, y and z")
+    _check_stuck(rows)
     return rows
 
 
