@@ -150,10 +150,10 @@ def _place(node: Node, within: Place) -> Place:
 
 def _unreadable(name: str, error: MarkedYAMLError) -> str:
     """Ruamel's reason in a sentence."""
-    begun = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
+    context = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
     mark = error.problem_mark
     problem = str(error.problem).strip()
-    return f"{shown((name, mark.line + 1, mark.column + 1))}: no YAML: {problem}{begun}"
+    return f"{shown((name, mark.line + 1, mark.column + 1))}: no YAML: {problem}{context}"
 
 
 def shown(place: Place) -> str:

@@ -54,7 +54,7 @@ class Evidence:
         scenario: str | None = None,
         robot: str | None = None,
     ) -> pd.DataFrame:
-        """A row for each seed and measurement of a training; on the paper's damage, if not told."""
+        """A row for each seed and measurement of a training, by default on the paper's damage."""
         place = Place(robot or self.study.robot, scenario or self.study.scenario)
         if iterations not in places(self.study).get(place, {}).get(learner, ()):
             raise NotMeasured(f"experiments.learners.{learner}: [{iterations}]")

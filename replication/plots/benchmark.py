@@ -25,8 +25,9 @@ REAL = "position_error_mm"
 def benchmark(evidence: Evidence) -> Figure:
     """Position errors against robot moves, for every learner in two scenarios."""
     table = evidence.table("benchmark.csv")
-    there = [*table["scenario"].unique()]
-    shown = SHOWN if {*SHOWN} <= {*there} else {its: fill(words(its), LINE) for its in there[:2]}
+    scenarios = [*table["scenario"].unique()]
+    titles = {scenario: fill(words(scenario), LINE) for scenario in scenarios[:2]}
+    shown = SHOWN if {*SHOWN} <= {*scenarios} else titles
     learners = styles_of(table["learner"])
     figure, panels = plt.subplots(
         1, len(shown), sharex=True, sharey=True, squeeze=False, figsize=(WIDTH, 3.4)
@@ -58,8 +59,8 @@ def real_arm(evidence: Evidence) -> Figure:
             shown = None if number else label
             _draw(axes, piece["poses"], piece, REAL, styles[learner], learner == UNDER, shown)
     axes.axhline(published, **BORDER)
-    its = {"va": "top", "ha": "right", "color": GREY}
-    note(axes, f"published: {published:.2g} mm", (table["poses"].max(), published), (0, -2), **its)
+    font = {"va": "top", "ha": "right", "color": GREY}
+    note(axes, f"published: {published:.2g} mm", (table["poses"].max(), published), (0, -2), **font)
     axes.set_xlabel("recorded poses, or moves on the twin")
     axes.set_ylabel("mean position error [mm]")
     logarithmic(axes.xaxis, 5, 20, 100, 500, 2000, 20_000)

@@ -21,7 +21,7 @@ def drawn(figure: Figure, evidence: Evidence) -> matplotlib.figure.Figure:
 
 def draw(study: Study, figures: Sequence[Path]) -> None:
     """Draw figures into files, each of which has the name of one. Raises NotMeasured."""
-    evidence, known = Evidence(study, Path.cwd()), {its.file: its for its in Figure}
+    evidence, known = Evidence(study, Path.cwd()), {figure.file: figure for figure in Figure}
     with plt.rc_context(STYLE):
         for name in dict.fromkeys(path.stem for path in figures):
             paths = [path for path in figures if path.stem == name]

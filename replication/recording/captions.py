@@ -44,20 +44,20 @@ def about(resolved: Resolved, watched: Watched) -> str:
 def in_words(entry: Entry) -> str:
     """A damage or disturbance: where it is, what it is, and by how much."""
     words = {
-        key: ", ".join(its) if isinstance(its, list) else its
-        for key, its in describe(entry).items()
+        key: ", ".join(value) if isinstance(value, list) else value
+        for key, value in describe(entry).items()
         if key not in PARTS
     }
-    said = [f"{key.replace('_', ' ')} {value}" for key, value in words.items()]
+    phrases = [f"{key.replace('_', ' ')} {value}" for key, value in words.items()]
     match entry:
         case LinkShortening():
-            said[0] = f"{words['shorten']} short"
+            phrases[0] = f"{words['shorten']} short"
         case EncoderShift():
-            said[0] = f"encoder {words['shift']}"
+            phrases[0] = f"encoder {words['shift']}"
     if part := link_of(entry) or joint_of(entry):
         name = part.removesuffix("_link").removesuffix("_joint").replace("_", " ")
-        return f"{name}: {', '.join(said)}"
-    return ", ".join(said)
+        return f"{name}: {', '.join(phrases)}"
+    return ", ".join(phrases)
 
 
 def legend(resolved: Resolved) -> dict[str, colours.Colour]:

@@ -21,9 +21,9 @@ OTHERS = "studies"  # below the shipped study's folder lie those of the others
 def check_writable(folder: str) -> None:
     """Raise RecalibError where no file can be made; the folder itself need not be there yet."""
     made = Path(folder).absolute()
-    there = made if made.exists() else made.parent
-    if not os.access(there, os.W_OK):
-        raise RecalibError(f"nothing can be written in {there}; try: a copy of the project")
+    existing = made if made.exists() else made.parent
+    if not os.access(existing, os.W_OK):
+        raise RecalibError(f"nothing can be written in {existing}; try: a copy of the project")
 
 
 def check_known(folders: Iterable[str]) -> None:

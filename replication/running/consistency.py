@@ -96,10 +96,10 @@ def _meanings(study: Study) -> Iterator[Mistake]:
     if study.experiments.switches:
         for switch in SWITCHES:
             for name, valid in ((IMPROVED, switch.improved), (RITTER, switch.ritter)):
-                stood = getattr(study.learners[name], switch.key)
-                if stood != valid:
+                value = getattr(study.learners[name], switch.key)
+                if value != valid:
                     when = "while experiments.switches is true"
-                    yield unlike(("learners", name, switch.key), stood, f"{valid} {when}")
+                    yield unlike(("learners", name, switch.key), value, f"{valid} {when}")
 
 
 def _amounts(study: Study) -> Iterator[Mistake]:

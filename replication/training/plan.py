@@ -43,7 +43,7 @@ def places(study: Study) -> dict[Place, Lengths]:
             continue
         here[name] = tuple(sorted({*here.get(name, ()), *lengths}))
     return {
-        place: {name: tuple(sorted(its)) for name, its in lengths.items()}
+        place: {name: tuple(sorted(iterations)) for name, iterations in lengths.items()}
         for place, lengths in found.items()
     }
 

@@ -25,7 +25,7 @@ from replication.running.outputs import write
 
 
 def main(job: Snakemake) -> None:
-    """Do the job of a rule. A mistake of the user's or of the system is told in one line."""
+    """Do the job of a rule. A mistake of the user's or of the system is reported in one line."""
     function: Callable[..., Any] = resolve_name(job.params.function)
     asked = inspect.signature(function).parameters
     files = {**dict(job.input.items()), **dict(job.output.items())}
