@@ -100,12 +100,12 @@ def planned(study: Study) -> list[tuple[int, int]]:
     First the setups that are measured again and again, so that the table can be read early.
     """
     plan = study.campaign
-    found = [*product(range(plan.replicated), range(plan.replicates))]
-    found += [(setup, 0) for setup in range(plan.replicated, plan.setups)]
+    measurements = [*product(range(plan.replicated), range(plan.replicates))]
+    measurements += [(setup, 0) for setup in range(plan.replicated, plan.setups)]
     shipped = Path(OUTCOMES)
     outcomes = pd.read_csv(shipped)[["setup", "replicate"]] if shipped.exists() else pd.DataFrame()
     measured = set(outcomes.itertuples(index=False, name=None))
-    return [measurement for measurement in found if measurement not in measured]
+    return [measurement for measurement in measurements if measurement not in measured]
 
 
 def read_design(path: str | Path) -> list[Setup]:

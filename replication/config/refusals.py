@@ -33,7 +33,7 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
 
     A misspelt key does not count as missing.
     """
-    found, meant = {}, set()
+    mistakes, intended = {}, set()
     errors = error.errors(include_url=False)
     for refusal in sorted(errors, key=lambda detail: detail["type"] == "missing"):
         *parents, last = refusal["loc"]
@@ -41,23 +41,24 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
         path, schema = find(parents if last == KEY else refusal["loc"])
         match refusal["type"]:
             case "extra_forbidden" | "unexpected_keyword_argument" if name[:1].isdigit():
-                found[path] = Mistake(path, ": a comma ended the number before; expected: a point")
+                fault = ": a comma ended the number before; expected: a point"
+                mistakes[path] = Mistake(path, fault)
             case "extra_forbidden" | "unexpected_keyword_argument":
                 valid = keys(find(parents)[1])
-                meant.add((*path[:-1], nearest(name, valid)))
-                found[path] = Mistake(path, f": unknown key; {instead(name, valid)}")
-            case "missing" if path in meant:
+                intended.add((*path[:-1], nearest(name, valid)))
+                mistakes[path] = Mistake(path, f": unknown key; {instead(name, valid)}")
+            case "missing" if path in intended:
                 pass
             case "missing" if isinstance(last, int):  # the last of so many in a list
                 values = reduce(getitem, path[:-1], whole)
-                found[path[:-1]] = unlike(path[:-1], values, f"{last + 1} values")
+                mistakes[path[:-1]] = unlike(path[:-1], values, f"{last + 1} values")
             case "missing":
-                found[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
+                mistakes[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
             case "too_short" if refusal["input"]:
                 pass  # since none of its values is valid, which each of them says
             case _:
-                found.setdefault(path, unlike(path, refusal["input"], _expected(refusal["msg"])))
-    return [*_together(found.values(), whole)]
+                mistakes.setdefault(path, unlike(path, refusal["input"], _expected(refusal["msg"])))
+    return [*_together(mistakes.values(), whole)]
 
 
 def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:

@@ -39,9 +39,9 @@ def errors(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
 def reached(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
     """Moves to each threshold: medians over seeds, with the 5th and the 95th percentile."""
     rows = []
-    for scenario, learner, own in _competitors(plan, history):
+    for scenario, learner, runs in _competitors(plan, history):
         for error, threshold in product((*ERRORS, BOTH), plan.thresholds):
-            moves = moves_to_reach(own, ERRORS if error == BOTH else (error,), threshold)
+            moves = moves_to_reach(runs, ERRORS if error == BOTH else (error,), threshold)
             low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
             labels = {"scenario": scenario, "learner": learner, "error": error}
             cells = {"threshold": threshold, "moves": median, "low": low, "high": high}

@@ -67,9 +67,9 @@ class Evidence:
     ) -> np.ndarray:
         """Position [cm] and orientation errors [degrees] (seed, 2), last or before learning."""
         history = self.history(learner, iterations, scenario)
-        when = 0 if first else iterations
-        then = history[history["iteration"] == when].sort_values("seed")
-        return then[list(ERRORS)].to_numpy()
+        iteration = 0 if first else iterations
+        rows = history[history["iteration"] == iteration].sort_values("seed")
+        return rows[list(ERRORS)].to_numpy()
 
     def findings(self) -> dict[str, Finding]:
         """What was found about each claim, by its id. Raises NotMeasured: nothing was judged."""

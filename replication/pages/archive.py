@@ -135,8 +135,8 @@ def _add_run(
     if noted:
         properties["startTime"] = _moment(min(note["starttime"] for _, note in noted))
         properties["endTime"] = _moment(max(note["endtime"] for _, note in noted))
-    made = [crate.dereference(place.as_posix()) for place in results.values()]
-    actions = [crate.add_action(workflow, "#run", result=made, properties=properties)]
+    entities = [crate.dereference(place.as_posix()) for place in results.values()]
+    actions = [crate.add_action(workflow, "#run", result=entities, properties=properties)]
     tools = {}
     for path, note in noted:
         if (rule := note["rule"]) not in tools:

@@ -208,12 +208,12 @@ class Contents:
     @cached_property
     def setups(self) -> int:
         """Setups of the campaign in which every variant has been measured."""
-        every = {name for name, variant in variants(self.study).items() if variant.lengths}
+        names = {name for name, variant in variants(self.study).items() if variant.lengths}
         try:
             measured = self.evidence.outcomes().groupby("setup")["variant"].agg(set)
         except NotMeasured:
             return 0
-        return int(measured.map(every.issubset).sum())
+        return int(measured.map(names.issubset).sum())
 
     fewest = FEWEST  # setups from which verdicts may follow
 

@@ -66,17 +66,17 @@ class Benchmark:
         errors = self.errors
         counted = errors["moves"].isin([budget for budget in self.budgets if budget >= FIRST])
         others = errors[counted & errors["learner"].isin({*peers()} - {HYBRID})]
-        own = errors[counted & (errors["learner"] == HYBRID)]
-        found = []
-        for row in own.to_dict("records"):
+        hybrid = errors[counted & (errors["learner"] == HYBRID)]
+        comparisons = []
+        for row in hybrid.to_dict("records"):
             same = (others["scenario"] == row["scenario"]) & (others["moves"] == row["moves"])
             for error, kind in zip(ERRORS, KINDS, strict=True):
                 best = others[same][error].min()
                 if row[error] > max(WORSE * best, NEGLIGIBLE):
-                    found.append(
+                    comparisons.append(
                         Worse(words(row["scenario"]), row["moves"], kind, row[error] / best)
                     )
-        return found
+        return comparisons
 
 
 def words(scenario: str) -> str:

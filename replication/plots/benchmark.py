@@ -34,8 +34,8 @@ def benchmark(evidence: Evidence) -> Figure:
     )
     for axes, (scenario, name) in zip(panels[0], shown.items(), strict=True):
         for learner, style in learners.items():
-            own = table[(table["scenario"] == scenario) & (table["learner"] == learner)]
-            _draw(axes, own["moves"], own, BOTH[0].column, style, learner == UNDER)
+            results = table[(table["scenario"] == scenario) & (table["learner"] == learner)]
+            _draw(axes, results["moves"], results, BOTH[0].column, style, learner == UNDER)
         axes.set_title(name)
         axes.set_xlabel("robot moves")
         logarithmic(axes.xaxis, 1, 100, 10_000)
@@ -51,10 +51,10 @@ def real_arm(evidence: Evidence) -> Figure:
     table, published = evidence.table("real.csv"), evidence.study.real.published.after_mm
     figure, axes = plt.subplots(figsize=(WIDTH, 3.8))
     styles = styles_of(table["learner"])
-    for (learner, twin), own in table.groupby(["learner", "twin"], sort=False):
+    for (learner, twin), results in table.groupby(["learner", "twin"], sort=False):
         # no line where nothing was measured in between
-        pieces = (own["poses"].pct_change() > FAR).cumsum()
-        for number, piece in own.groupby(pieces):
+        pieces = (results["poses"].pct_change() > FAR).cumsum()
+        for number, piece in results.groupby(pieces):
             label = styles[learner].label + (" on a twin" if twin else "")
             shown = None if number else label
             _draw(axes, piece["poses"], piece, REAL, styles[learner], learner == UNDER, shown)

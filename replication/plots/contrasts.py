@@ -109,10 +109,10 @@ def _draw(axes: Axes, part: list[Row]) -> None:
 
 def _ends(part: list[Row]) -> tuple[float, float]:
     """Between which everything lies."""
-    every = np.concatenate(
+    numbers = np.concatenate(
         [[*row.numbers, *(row.finding.estimates[0].predictive_interval or ())] for row in part]
     )
-    return float(every.min() / MARGIN), float(every.max() * MARGIN)
+    return float(numbers.min() / MARGIN), float(numbers.max() * MARGIN)
 
 
 def _draw_row(axes: Axes, height: float, row: Row, ends: tuple[float, float]) -> None:

@@ -58,14 +58,14 @@ def _draw_band(axes: Axes, table: pd.DataFrame, color: str) -> None:
 
 def _label_ends(axes: Axes, means: pd.DataFrame, row: int, aside: float) -> None:
     """Both errors at the beginning or at the end, one above the other."""
-    both = means.iloc[row]
-    close = both.max() < NEAR * both.min()
+    errors = means.iloc[row]
+    close = errors.max() < NEAR * errors.min()
     for error in BOTH:
-        shift = (5 if both[error.column] == both.max() else -5) if close else 0
+        shift = (5 if errors[error.column] == errors.max() else -5) if close else 0
         note(
             axes,
-            f"{both[error.column]:.{2 if row else 1}f} {error.unit}",
-            (means.index[row], both[error.column]),
+            f"{errors[error.column]:.{2 if row else 1}f} {error.unit}",
+            (means.index[row], errors[error.column]),
             (aside, shift),
             va="center",
             color=error.color,

@@ -79,16 +79,16 @@ def _draw_errors(axes: Axes, rows: pd.DataFrame, style: Style) -> None:
 def _draw_published(iterations: float, above: Axes, below: Axes) -> None:
     for axes in (above, below):
         axes.axvline(iterations, linestyle=(0, (4, 3)), **BORDER)
-    where = iterations, 1
+    at = iterations, 1
     font = {"xycoords": ("data", "axes fraction"), "va": "top", "color": GREY}
-    note(above, f"the paper:\n{PUBLISHED}×", where, (3, 0), **font)
+    note(above, f"the paper:\n{PUBLISHED}×", at, (3, 0), **font)
 
 
 def _needed(values: Values, own: int) -> tuple[np.ndarray, int]:
     """Iterations (replicate,), and whether they are a bound."""
     factors = values.table.to_numpy().ravel()
-    known = np.isfinite(factors)
-    return own * np.exp(factors[known]), int(np.sign(values.bounds.to_numpy().sum()))
+    finite = np.isfinite(factors)
+    return own * np.exp(factors[finite]), int(np.sign(values.bounds.to_numpy().sum()))
 
 
 def _in_words(needed: float, own: int, bound: int = 0) -> str:

@@ -33,35 +33,35 @@ def check_robots(study: Study) -> list[Mistake]:
     """
     used = list(places(study))
     robots: dict[str, Robot] = {}
-    found: list[Mistake] = []
+    mistakes: list[Mistake] = []
     for name, entry in study.robots.items():
         try:
             robots[name] = nominal_robot(nominal_of(study, name))
         except RecalibError as error:
-            found.append(_of_robot(name, error))
+            mistakes.append(_of_robot(name, error))
         else:
-            found += list(_of_slides(robots[name])) or _of_links(robots[name], entry.links)
-    if found:
-        return found
+            mistakes += list(_of_slides(robots[name])) or _of_links(robots[name], entry.links)
+    if mistakes:
+        return mistakes
     assigned = []
     for name in dict.fromkeys(robot for robot, _ in used):
         try:
             Controller(robots[name], study.controller.greatest_condition)
         except RecalibError as error:
-            found.append(_of_robot(name, error))
+            mistakes.append(_of_robot(name, error))
             continue
         scenarios = [scenario for robot, scenario in used if robot == name]
         for scenario in scenarios:
-            found += _of_scenario(study, scenario, robots[name])
+            mistakes += _of_scenario(study, scenario, robots[name])
         if has_part(study, scenarios):
             assigned.append(robots[name])
-    if assigned and not found:
-        each = (list(_of_assignment(robot, study)) for robot in assigned)
-        found += next(filter(None, each), [])  # the others' would say the same again
-    if study.experiments.evidence and not found:
+    if assigned and not mistakes:
+        by_robot = (list(_of_assignment(robot, study)) for robot in assigned)
+        mistakes += next(filter(None, by_robot), [])  # the others' would say the same again
+    if study.experiments.evidence and not mistakes:
         own = robots[study.robot]
-        found += list(_of_mapping(own)) or _of_ensemble(study, own)
-    return found
+        mistakes += list(_of_mapping(own)) or _of_ensemble(study, own)
+    return mistakes
 
 
 def _of_robot(name: str, error: RecalibError) -> Mistake:
@@ -98,7 +98,7 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
     together do not even leave the middle of its workspace within reach.
     """
     lacking: dict[KeyPath, UnknownName] = {}
-    done: list[Damage] = []
+    damages: list[Damage] = []
     for index, entry in enumerate(study.scenarios[scenario]):
         if not isinstance(entry, Damage):
             continue
@@ -107,21 +107,21 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
         if isinstance(error, UnknownName):
             lacking[(*path, next(iter(description)))] = error
             continue
-        done.append(entry)
+        damages.append(entry)
         amount = next(key for key in entry.amounts() if key in description)
         if error:
             yield unlike((*path, amount), description[amount], error.valid)
             break
-        if not _reaches_middle(robot, done):
+        if not _reaches_middle(robot, damages):
             where = f"the middle of the workspace within reach of the {robot.name}"
             yield unlike((*path, amount), description[amount], f"less, so that it leaves {where}")
             break
     if len(lacking) > 1:  # it is meant for another robot
         names = listed(dict.fromkeys(error.name for error in lacking.values()), "and")
         has = f"has {listed(next(iter(lacking.values())).valid, 'and')}"
-        asked = ("scenario",), ("experiments", "scenarios")
+        keys = ("scenario",), ("experiments", "scenarios")
         fault = f" is about {names}; the {robot.name} {has}"
-        yield Mistake(("scenarios", scenario), fault, asked)
+        yield Mistake(("scenarios", scenario), fault, keys)
     else:
         yield from (unknown(where, error.name, error.valid) for where, error in lacking.items())
 

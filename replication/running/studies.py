@@ -119,13 +119,13 @@ def _typed(value: Any) -> Any:
     """Numbers, true, false and null as such: inside of brackets the command line has text only."""
     match value:
         case Mapping():
-            return {key: _typed(item) for key, item in value.items()}
+            return {key: _typed(entry) for key, entry in value.items()}
         case list() | tuple():
-            return [_typed(item) for item in value]
+            return [_typed(entry) for entry in value]
         case str():
             with suppress(ValueError):
-                meant = json.loads(value)
-                return meant if meant is None or isinstance(meant, int | float) else value
+                parsed = json.loads(value)
+                return parsed if parsed is None or isinstance(parsed, int | float) else value
     return value
 
 
@@ -133,16 +133,17 @@ def named_files(project: Path, study: Study) -> list[Mistake]:
     """Files that a study names and that are not there, or are not bands."""
     named = {EXPECTED: study.expected, DESCRIPTION: study.real.description}
     named |= {("real", "data", part, "file"): table.file for part, table in study.real.data}
-    found = [
+    mistakes = [
         unlike(path, file, "a file that is there" + (path != DESCRIPTION) * ", or null")
         for path, file in named.items()
         if file is not None and not (project / file).is_file()
     ]
-    if study.expected and not found:
+    if study.expected and not mistakes:
         with (project / study.expected).open(encoding="utf-8", errors="replace") as bands:
             if bands.readline().strip() != BANDS:
-                found.append(unlike(EXPECTED, study.expected, f"a table with the header {BANDS}"))
-    return found
+                valid = f"a table with the header {BANDS}"
+                mistakes.append(unlike(EXPECTED, study.expected, valid))
+    return mistakes
 
 
 def ship(project: Path) -> None:
