@@ -151,7 +151,7 @@ class Contents:
     def _judged(self, claim: Claim, finding: Finding | None) -> Judged:
         numbers = {}
         if isinstance(claim, OfSetups):
-            numbers = {(claim.name, claim.system): claim.estimand, **claim.beside}
+            numbers = {(claim.name, claim.system): claim.estimand, **claim.secondary}
         shares = frozenset(key for key in numbers if isinstance(numbers[key], Remaining))
         needs = "" if finding else self._needs(claim)
         earlier = None if finding else self._earlier.get(claim.statement.id)

@@ -24,7 +24,7 @@ from replication.plots.style import (
 from replication.training.measured import ERRORS
 from replication.training.plan import Place, leading, places
 
-NEAR = 1.4  # times: two numbers beside an axis that would stand on each other
+NEAR = 1.4  # times: two numbers next to an axis that would stand on each other
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 MOVES = "iterations (two moves each)"
 

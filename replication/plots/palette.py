@@ -50,7 +50,7 @@ BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS)
 HOLDS, FAILS = "#44AA99", "#580644"
 NEUTRAL = "black"
 INK = "0.25"  # of pictures of ideas
-GREY = "0.4"  # words and lines beside the data
+GREY = "0.4"  # words and lines next to the data
 BORDER: dict[str, Any] = {"color": GREY, "linewidth": 0.8}  # parts one side from the other
 # After Okabe and Ito's palette, whose pink, green, orange and grey some take for each other; in the
 # order of the learners. Later ones look as those nobody foresaw.

@@ -67,7 +67,7 @@ class OfSetups:
         system: the algorithm of which the paper speaks.
         estimand: the number.
         comparison: with what it is compared.
-        beside: more numbers, by name and system, which decide nothing.
+        secondary: more numbers, by name and system, which decide nothing.
     """
 
     statement: Statement
@@ -75,7 +75,7 @@ class OfSetups:
     system: str
     estimand: Estimand
     comparison: Comparison = RATIO
-    beside: Mapping[tuple[str, str], Estimand] = field(default_factory=dict)
+    secondary: Mapping[tuple[str, str], Estimand] = field(default_factory=dict)
 
     @property
     def registered(self) -> tuple[object, ...]:
@@ -87,9 +87,9 @@ class OfSetups:
         values = self.values(evidence)
         model, setups = values.model(), values.table.index
         numbers = [number(self.name, self.system, model.mean, model.another)]
-        for (name, system), estimand in self.beside.items():
-            other = estimand.values(evidence.outcomes()).model()
-            numbers.append(number(name, system, other.mean, other.another))
+        for (name, system), estimand in self.secondary.items():
+            secondary = estimand.values(evidence.outcomes()).model()
+            numbers.append(number(name, system, secondary.mean, secondary.another))
         return self.statement.finding(
             self.comparison.verdict(model),
             *numbers,
