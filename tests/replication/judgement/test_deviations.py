@@ -22,7 +22,7 @@ def changes(told: Deviations) -> list[Change]:
 
 
 def test_what_is_registered_is_as_the_last_entry_names_it(told, study):
-    changed = told.untold(digests(study, ROOT))
+    changed = told.undeclared(digests(study, ROOT))
     assert not changed, (
         f"{', '.join(changed)}: not as {DEVIATIONS} names it last. Try: add an entry there, with"
         " what `python -m replication.judgement.deviations` prints below `digests`"
@@ -34,8 +34,8 @@ def test_an_entry_replaces_what_was_registered(told):
     its = told.model_copy(
         update={"registered": {"a": "1", "b": "1", "c": "1"}, "deviations": (entry,)}
     )
-    assert its.untold({"a": "1", "b": "2"}) == {}
-    found = its.untold({"b": "1", "c": "1", "d": "1"})
+    assert its.undeclared({"a": "1", "b": "2"}) == {}
+    found = its.undeclared({"b": "1", "c": "1", "d": "1"})
     assert found == {"b": "1", "c": "1", "d": "1", "a": REMOVED}
 
 
