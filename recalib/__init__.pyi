@@ -48,8 +48,8 @@ from .laboratory.tables.description import Description as Description
 from .laboratory.tables.description import read_description as read_description
 from .learners.gaussian_process import GaussianProcessLearner as GaussianProcessLearner
 from .learners.geometric import GeometricLearner as GeometricLearner
+from .learners.geometric import HybridLearner as HybridLearner
 from .learners.hierarchical import HierarchicalLearner as HierarchicalLearner
-from .learners.hybrid import HybridLearner as HybridLearner
 from .learners.learned import load as load
 from .learners.learned import save as save
 from .learners.polynomial import PolynomialLearner as PolynomialLearner

@@ -1,12 +1,11 @@
 """A black box: Gaussian processes for the correction of the command, without an arm's model."""
 
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
-from recalib.learners.experience import Refitting
-from recalib.nominal.robots import Robot
+from recalib.learners.observer import Refitting
 from recalib.numerics.regression import Process, is_time_to_search
 
 
@@ -15,15 +14,9 @@ class GaussianProcessLearner(Refitting):
 
     Hyperparameters are sought anew whenever the number of moves passes a power of two, up to
     `regression.MOST` of them.
-
-    Args:
-        runs: how many independent trainings.
     """
 
     MODEL = "process"
-
-    def __init__(self, *, runs: int = 1):
-        super().__init__(runs)
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         return np.stack(
@@ -42,8 +35,3 @@ class GaussianProcessLearner(Refitting):
 
     def _restored(self, state: Mapping[str, Any]) -> Process:
         return Process(**state)
-
-    @classmethod
-    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
-        """An untrained learner for a number of runs; it has no settings."""
-        return cls(runs=runs)

@@ -42,7 +42,7 @@ KINDS = {
         "recalib.learners.gaussian_process.GaussianProcessLearner", {"Gaussian process": {}}
     ),
     "geometric": Kind("recalib.learners.geometric.GeometricLearner", {"geometric": {}}, KINEMATICS),
-    "hybrid": Kind("recalib.learners.hybrid.HybridLearner", {"hybrid": {}}, KINEMATICS),
+    "hybrid": Kind("recalib.learners.geometric.HybridLearner", {"hybrid": {}}, KINEMATICS),
 }
 
 
