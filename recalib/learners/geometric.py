@@ -11,7 +11,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration, calibrate, most_probable
+from recalib.identification.calibration import Calibration, calibrate, calibrations
 from recalib.identification.model.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS
 from recalib.identification.model.observations import Observations
 from recalib.learners.observer import Refitting
@@ -63,7 +63,8 @@ class GeometricLearner(Refitting):
 
     @staticmethod
     def _calibrate(arm: Arm, observations: Observations, last: Calibration | None) -> Calibration:
-        return most_probable(arm, (OFFSETS,), observations, start=last.estimate if last else None)
+        start = last.estimate if last else None
+        return calibrations(arm, (OFFSETS,), observations, start=start)[0]
 
     @classmethod
     def identify(cls, arm: Arm, observations: Observations) -> Calibration:

@@ -73,7 +73,6 @@ def test_rows_of_all_sights_identify_one_arm(ur10):
     assert np.abs(calibration.frames.bases[1] - ELSEWHERE @ calibration.frames.base).max() < 2e-3
     again = Calibration.restore(ur10, calibration.state())
     assert np.array_equal(again.residuals(fresh), calibration.residuals(fresh))
-    assert len(calibration.parameters) == np.count_nonzero(model.deviations > 1e-9)
     names = [its.name for its in parameters_of(model, calibration.estimate)]
     assert names[8 * 6] == "shift x of base to 1" and len(set(names)) == len(names)
 

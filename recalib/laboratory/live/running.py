@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.distance import cdist
 
-from recalib.identification.calibration import Calibration, most_probable
+from recalib.identification.calibration import Calibration, calibrations, choose
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.checks.repeatability import returning
 from recalib.identification.design import most_informative, surprises
@@ -81,7 +81,8 @@ class RunningCalibration:
                 model = ErrorModel(self._arm, OFFSETS, frames)
                 self._returning[count] = returning(model, observations[RETURNING])
                 observations = self._weighed(observations, count)
-            self._calibrations[count] = most_probable(self._arm, MODELS, observations, frames)
+            every = calibrations(self._arm, MODELS, observations, frames)
+            self._calibrations[count] = every[choose(every)]
         return self._calibrations[count]
 
     def _weighed(self, observations: Observations, count: int) -> Observations:
