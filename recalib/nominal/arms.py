@@ -10,10 +10,16 @@ import pinocchio as pin
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.files.storage import read_file
 from recalib.nominal.coupling import coupling_of
-from recalib.nominal.descriptions import MOST, find_urdf, link_of, parsed
-from recalib.nominal.foreign_messages import caught_messages
+from recalib.nominal.descriptions import (
+    MOST,
+    caught_messages,
+    check_description,
+    find_urdf,
+    link_of,
+    mistakes,
+    parsed,
+)
 from recalib.nominal.kinematics import Arm, tool_frame
-from recalib.nominal.urdf_checks import check_description, mistakes
 
 KINDS = "fixed", "revolute", "continuous", "prismatic"
 NAMESAKE = " (joint)"  # after the name of one that is called like a link

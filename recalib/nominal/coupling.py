@@ -8,8 +8,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from recalib.errors import UnsuitableRobot
-
-MOVING = "revolute", "continuous", "prismatic"
+from recalib.nominal.descriptions import MOVING
 
 
 @dataclass(frozen=True)
