@@ -88,8 +88,7 @@ class Plant:
 
     def achieve_targets(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
         """As `achieve`, for commands that the controller has turned into joint angles."""
-        angles, executed = targets
-        poses = self._forward(angles)
+        poses, executed = self._forward(targets.angles), targets.executed
         if not executed.all():
             homes = np.broadcast_to(self._home, poses.shape)
             poses[~executed] = homes[~executed]

@@ -79,20 +79,11 @@ def _first_stuck(
     """Run and move of the first that led to the pose before it by another command; -1 if none."""
     for run in range(achieved.shape[0]):
         for move in range(achieved.shape[1]):
-            if move > 0:
-                before, there, done = (
-                    commands[run, move - 1],
-                    achieved[run, move - 1],
-                    executed[run, move - 1],
-                )
-            elif len(last_commands):
-                before, there, done = (
-                    last_commands[run, 0],
-                    last_achieved[run, 0],
-                    last_executed[run, 0],
-                )
-            else:
+            if move == 0 and not len(last_commands):
                 continue
+            before = commands[run, move - 1] if move > 0 else last_commands[run, 0]
+            there = achieved[run, move - 1] if move > 0 else last_achieved[run, 0]
+            done = executed[run, move - 1] if move > 0 else last_executed[run, 0]
             gap, sent = 0.0, 0.0
             for number in range(6):
                 gap = max(gap, abs(achieved[run, move, number] - there[number]))
