@@ -5,7 +5,7 @@ import numpy as np
 from recalib.errors import BadMeasurement
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.observations import Observations
-from recalib.loop.measurements import FARTHEST, POSE, are_poses
+from recalib.loop.external import FARTHEST, POSE, are_poses
 
 TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians
 

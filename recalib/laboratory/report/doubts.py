@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from recalib.identification.checks.poses import turned_axes
+from recalib.identification.checks.postures import turned_axes
 from recalib.identification.model.frames import HELD
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.plausibility.fault_words import (
