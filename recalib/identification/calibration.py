@@ -98,7 +98,7 @@ class Calibration:
             targets: (n,) the numbers of the sights; default: the first.
         """
         model, estimate = self.model, self.estimate
-        _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints), targets)
+        _, jacobians = model.linearise(estimate.parameters, joints, targets)
         by_position = jacobians[:, :3].reshape(-1, model.deviations.size)
         if shifted:
             ends = np.flatnonzero(model.free[: model.optics_columns.start])
@@ -147,7 +147,7 @@ class Calibration:
         return [self.model.arm(self.estimate.parameters, sight) for sight in numbers]
 
     def _standing(self, joints: np.ndarray) -> np.ndarray:
-        return self.model.standing(self.estimate.parameters, joints, self.model.terms(joints))
+        return self.model.standing(self.estimate.parameters, joints)
 
     def _moved(self, poses: np.ndarray, joints: np.ndarray) -> np.ndarray:
         """By the pattern of the first target, as the instrument would see it."""

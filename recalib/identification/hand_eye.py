@@ -26,7 +26,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.closed_forms import solutions
 from recalib.identification.model.frames import nearest_rotation
-from recalib.identification.model.linearisation import LEVER, displacements
+from recalib.identification.model.linearisation import LEVER, displaced, displacements
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 
@@ -335,7 +335,7 @@ def _moved_to_best(found: HandEye) -> HandEye:
         inverse = np.linalg.pinv(information * scale * scale[:, None], rcond=1e-12, hermitian=True)
         covariance = inverse * scale * scale[:, None]
         step = _bounded(covariance @ gradient, found.sights)
-        camera, board = _moved(found.camera, step[:6]), _moved(found.board, step[6:ENDS])
+        camera, board = displaced(found.camera, step[:6]), displaced(found.board, step[6:ENDS])
         optics = found.optics + step[ENDS:]
         found = replace(found, camera=camera, board=board, optics=optics, covariance=covariance)
         if np.abs(step[:ENDS]).max() < SMALL:
@@ -348,11 +348,3 @@ def _bounded(step: np.ndarray, sights: Sights) -> np.ndarray:
     positions, turns = np.abs(step[:ENDS].reshape(2, 2, 3)).max(axis=(0, 2))
     reach = max(np.abs(poses[:, :3, 3]).max() for poses in (sights.flange, sights.board))
     return step / max(1.0, positions / reach, turns / LONGEST)
-
-
-def _moved(pose: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """A pose displaced by (6,) m and rad along and about the axes of its frame."""
-    moved = pose.copy()
-    moved[:3, 3] += step[:3]
-    moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
-    return moved

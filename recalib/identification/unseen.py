@@ -55,8 +55,8 @@ def _geometry(model: ErrorModel) -> np.ndarray:
 
 def _slopes(model: ErrorModel, observations: Observations) -> np.ndarray:
     """Of all that observations measure (m, P) by the parameters over their deviations [m]."""
-    terms, origin = model.terms(observations.joints), np.zeros(len(model.deviations))
-    jacobians = Linearisation(model, origin, observations, terms).jacobians
+    origin = np.zeros(len(model.deviations))
+    jacobians = Linearisation(model, origin, observations).jacobians
     levers = np.array([1, LEVER])[: observations.kinds, None, None, None]
     return (jacobians * levers).reshape(-1, len(origin))
 

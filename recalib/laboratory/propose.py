@@ -69,7 +69,7 @@ def propose(
     model, estimate = calibration.model, calibration.estimate
     coupling = correction.arm.coupling
     probes = coupling.joints(_drawn(correction)[:PROBES])
-    _, jacobians = model.linearise(estimate.parameters, probes, model.terms(probes))
+    _, jacobians = model.linearise(estimate.parameters, probes)
     chosen, uncertainty = [], [_uncertainty(jacobians, estimate.covariance)]
     for best, covariance in most_informative(calibration, coupling.joints(postures), count):
         chosen.append(best)

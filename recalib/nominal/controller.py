@@ -154,7 +154,7 @@ class Controller:
             )
 
     def _check_condition(self, knots: np.ndarray, greatest: float) -> None:
-        jacobians = self._chain.jacobians(knots)
+        _, jacobians = self.robot.arm.forward_and_jacobian(knots)
         condition = np.linalg.cond(jacobians / self.robot.workspace.half_ranges[:, None]).max()
         if condition > greatest:
             raise UnfitWorkspace(

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from recalib.identification.model.linearisation import displaced
 from recalib.identification.model.optics import BOARD, Optics
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
@@ -53,9 +53,7 @@ def board_pose(
         if not np.isfinite(information).all():
             return np.full((4, 4), np.nan)
         step = np.linalg.lstsq(information, by_pose.T @ residuals, rcond=None)[0]
-        moved = pose.copy()
-        moved[:3, 3] += step[:3]
-        moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
+        moved = displaced(pose, step)
         expected, slopes_there = projected(points, lens, moved)
         there = (pixels - expected).ravel()
         if not there @ there < residuals @ residuals:

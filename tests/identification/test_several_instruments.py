@@ -51,10 +51,10 @@ def test_slopes_agree_with_finite_differences(ur10):
     assert np.count_nonzero(model.free) == 4 * 6
     parameters = 0.1 * rng.standard_normal(len(model.deviations))
     joints, sights = rng.uniform(-1, 1, (6, 6)), np.arange(6) % 3
-    poses, jacobians = model.linearise(parameters, joints, model.terms(joints), sights)
+    poses, jacobians = model.linearise(parameters, joints, sights)
     assert np.allclose(poses, model.predict(parameters, joints, sights), atol=1e-12)
     found = model.found(parameters)
-    own = model.own_arm(parameters).forward(model.standing(parameters, joints, model.terms(joints)))
+    own = model.own_arm(parameters).forward(model.standing(parameters, joints))
     there = found.bases[SIGHTS[sights, 0]] @ own @ found.targets[SIGHTS[sights, 1]]
     assert np.allclose(there, poses, atol=1e-12)
     for index, unit in enumerate(1e-5 * np.eye(len(parameters))):

@@ -94,8 +94,8 @@ def _root(calibration: Calibration, observations: Observations, weights: np.ndar
     R is of the slopes themselves: in their squares, what is next to nothing is lost to rounding.
     """
     model, estimate = calibration.model, calibration.estimate
-    parameters, terms = estimate.parameters / model.deviations, model.terms(observations.joints)
-    linear = Linearisation(model, parameters, observations, terms)
+    parameters = estimate.parameters / model.deviations
+    linear = Linearisation(model, parameters, observations)
     root = np.empty((0, len(parameters)))
     for jacobians, noise in zip(linear.jacobians, estimate.noise, strict=True):
         rows = jacobians * (np.sqrt(weights) / noise)[:, None, None]

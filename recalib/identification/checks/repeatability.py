@@ -6,8 +6,6 @@ pose has the covariance of its corners and, in addition, that of the arm, whose 
 probable of a few.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from recalib.identification.estimation import identify
@@ -20,28 +18,18 @@ COVARIANCE = np.diag([LEVER**2] * 3 + [1.0] * 3)
 RETURNS = 3e-5, 1e-4, 3e-4, 1e-3  # rad: from what hardly an arm does better to a worn one
 
 
-def weigh(model: ErrorModel, observations: Observations) -> Observations:
-    """The same observations, whose optics take into account how well the arm returns.
-
-    Raises BadMeasurement, as `identify`.
-    """
-    assert observations.optics is not None
-    covariance = returning(model, observations)
-    return replace(observations, optics=observations.optics.with_noise(covariance))
-
-
 def returning(model: ErrorModel, observations: Observations) -> np.ndarray:
     """The covariance (6, 6) [m, rad] by which the arm does not return to a posture.
 
-    Arguments and errors are those of `weigh`.
+    Raises BadMeasurement, as `identify`.
     """
-    assert observations.optics is not None
     tried = []
     for size in RETURNS:
         covariance = size**2 * COVARIANCE
-        optics = observations.optics.with_noise(covariance)
+        weighed = observations.with_noise(covariance)
+        assert weighed.optics is not None
         # a density of residuals before they were whitened
-        volume = np.linalg.slogdet(optics.whitening).logabsdet.sum()
-        evidence = identify(model, replace(observations, optics=optics)).log_evidence
+        volume = np.linalg.slogdet(weighed.optics.whitening).logabsdet.sum()
+        evidence = identify(model, weighed).log_evidence
         tried.append((evidence + volume, -size, covariance))
     return max(tried, key=lambda one: one[:2])[2]

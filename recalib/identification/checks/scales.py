@@ -48,9 +48,8 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
     Raises BadMeasurement, as `identify`.
     """
     each, by_cameras = len(BOARD), observations.optics is not None
-    if observations.optics is not None:
-        optics = observations.optics.with_noise(LINKS**2 * COVARIANCE)
-        observations = replace(observations, optics=optics)
+    if by_cameras:
+        observations = observations.with_noise(LINKS**2 * COVARIANCE)
     elif observations.measured is not None:
         observations, each = replace(observations, optics=_rod(observations)), 1
         frames = frames.with_optics(_rod(observations))

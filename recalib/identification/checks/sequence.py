@@ -126,8 +126,7 @@ def slopes_of(geometry: Calibration, observations: Observations, power: int) -> 
     model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
     parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
     parameters[: len(estimate.parameters)] = estimate.parameters
-    terms = model.terms(observations.joints)
-    linear = Linearisation(model, parameters / model.deviations, observations, terms)
+    linear = Linearisation(model, parameters / model.deviations, observations)
     residuals = np.concatenate([*linear.residuals], axis=1) / np.repeat(estimate.noise, 3)
     lengths = np.linalg.norm(residuals, axis=1, keepdims=True)
     weights = np.sqrt(FAR / np.maximum(lengths, FAR)) ** power

@@ -89,8 +89,7 @@ class RunningCalibration:
         """Rows by cameras, weighed as by the calibration of so many rows."""
         if observations.optics is None:
             return observations
-        optics = observations.optics.with_noise(self._returning[count])
-        return replace(observations, optics=optics)
+        return observations.with_noise(self._returning[count])
 
     def error(self, observations: Observations) -> float:
         """The predicted mean position error [m] in allowed postures.
