@@ -1,5 +1,3 @@
-"""The public names and their modules."""
-
 from .geometric import angles_for as angles_for
 from .kernels import JACOBIAN as JACOBIAN
 from .kernels import THETA as THETA

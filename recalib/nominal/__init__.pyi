@@ -1,5 +1,3 @@
-"""The public names and their modules."""
-
 from .arms import arm_of as arm_of
 from .chain import TOLERANCE as TOLERANCE
 from .denavit_hartenberg import CONVENTIONS as CONVENTIONS
