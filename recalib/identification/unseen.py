@@ -29,7 +29,7 @@ class Unseen:
     """
 
     def __init__(self, model: ErrorModel, observations: Observations):
-        columns, size = _geometry(model), len(model.deviations)
+        columns, size = geometry_of(model), len(model.deviations)
         wear = np.where(model.free[columns], UNKNOWN, 1.0)
         here = _slopes(model, observations)[:, columns] * wear
         values, vectors = np.linalg.eigh(here.T @ here / len(observations))
@@ -46,7 +46,7 @@ class Unseen:
         return columns - (columns @ self.directions) @ self._across.T
 
 
-def _geometry(model: ErrorModel) -> np.ndarray:
+def geometry_of(model: ErrorModel) -> np.ndarray:
     """The numbers of the parameters of frames, links and offsets that are not held."""
     numbers = np.arange(len(model.deviations))
     numbers = np.concatenate([numbers[: model.optics_columns.start], numbers[model.offset_columns]])

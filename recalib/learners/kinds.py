@@ -59,5 +59,4 @@ def class_of(kind: str) -> "type[Savable]":
     """The class of a kind. Raises UnknownName."""
     if kind not in KINDS:
         raise UnknownName("kind of learner", kind, KINDS)
-    found: type[Savable] = resolve_name(KINDS[kind].home)
-    return found
+    return resolve_name(KINDS[kind].home)

@@ -70,8 +70,7 @@ def read_picture(path: Path) -> np.ndarray:
     picture = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
     if picture is None:
         raise Unusable("it is not a picture")
-    grey: np.ndarray = picture
-    return grey
+    return picture
 
 
 def find_corners(board: Board, picture: np.ndarray) -> Corners:

@@ -175,8 +175,7 @@ def optics_of(lens: Lens, sightings: Sequence[Sighting]) -> tuple[np.ndarray, Op
 
 def _compensation(by_pose: np.ndarray, by_optics: np.ndarray) -> np.ndarray:
     """The pose (6, o) that compensates for optics, by derivatives (2 c, 6) and (2 c, o)."""
-    slopes: np.ndarray = -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
-    return slopes
+    return -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
 
 
 def projected(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -204,8 +203,7 @@ def _found(
     across = (slopes[:, 3:6].reshape(-1, 2, 3) @ turn)[..., :2]  # px for a m on the board
     narrow = (board.marker or board.square) * np.linalg.norm(across, -2, axis=(1, 2))
     faces = np.linalg.det(across) > 0
-    found: np.ndarray = ahead & inside & faces & (narrow > NARROW)
-    return found
+    return ahead & inside & faces & (narrow > NARROW)
 
 
 def _derivatives(

@@ -13,10 +13,9 @@ import numpy as np
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.frames import HELD
 from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Observations
-from recalib.identification.unseen import Unseen, anywhere
+from recalib.identification.unseen import Unseen, anywhere, geometry_of
 from recalib.nominal.newton import solve_groups
 
 TOLD = 1.0  # information over that of the prior from which on a parameter is told apart
@@ -80,12 +79,9 @@ def _last(order: np.ndarray, some: list[int]) -> np.ndarray:
 
 def _order(model: ErrorModel) -> np.ndarray:
     """Numbers of the parameters of geometry that are not held: frames, offsets, links."""
-    numbers = np.arange(len(model.deviations))
-    offsets = numbers[model.offset_columns]
-    geometry = numbers[: model.optics_columns.start]
-    order = np.concatenate([geometry[model.free[geometry]], offsets])
-    order = np.concatenate([order, np.setdiff1d(geometry, order)])
-    return order[model.deviations[order] > HELD]
+    numbers = geometry_of(model)
+    offsets = numbers >= model.offset_columns.start
+    return numbers[np.lexsort([~offsets, ~model.free[numbers]])]
 
 
 def _root(calibration: Calibration, observations: Observations, weights: np.ndarray) -> np.ndarray:
