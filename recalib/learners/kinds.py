@@ -35,11 +35,11 @@ class Kind(NamedTuple):
 KINDS = {
     "hierarchical": Kind("recalib.learners.hierarchical:HierarchicalLearner"),
     "polynomial": Kind(
-        "recalib.learners.polynomial:PolynomialLearner",
+        "recalib.learners.corrections:PolynomialLearner",
         {"affine": {"degree": 1}, "quadratic": {"degree": 2}},
     ),
     "gaussian_process": Kind(
-        "recalib.learners.gaussian_process:GaussianProcessLearner", {"Gaussian process": {}}
+        "recalib.learners.corrections:GaussianProcessLearner", {"Gaussian process": {}}
     ),
     "geometric": Kind("recalib.learners.geometric:GeometricLearner", {"geometric": {}}, KINEMATICS),
     "hybrid": Kind("recalib.learners.geometric:HybridLearner", {"hybrid": {}}, KINEMATICS),

@@ -3,6 +3,7 @@
 If a joint slides, its joint angle is a length [m], its torque a force [N].
 """
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Self
 
@@ -11,12 +12,42 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from recalib.arrays import array_of
-from recalib.nominal.coupling import Coupling
 
 
 def tool_frame(model: pin.Model, tool: str) -> int:
     """Index of the frame of the link `tool`, which may share its name with a joint."""
     return model.getFrameId(tool, pin.FrameType.BODY)
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """The coordinates of all joints by those that a controller reports: some may share a motor.
+
+    Attributes:
+        columns: names of the joints that a controller reports.
+        slides: (column,) whether each is a length.
+        gains: (joint, column) by which joints follow: rad or m for each rad or m.
+        shifts: (joint,) rad, m where joints stand if all columns are zero.
+        limits: (2, column) rad, m, lower and upper.
+    """
+
+    columns: tuple[str, ...]
+    slides: np.ndarray
+    gains: np.ndarray
+    shifts: np.ndarray
+    limits: np.ndarray
+
+    def joints(self, columns: np.ndarray) -> np.ndarray:
+        """Coordinates (n, joints) of all joints from those reported (n, columns)."""
+        return columns @ self.gains.T + self.shifts
+
+    def reported(self, joints: np.ndarray) -> np.ndarray:
+        """Coordinates (n, columns) that are reported, from those of all joints (n, joints)."""
+        return (joints - self.shifts) @ self._inverse.T
+
+    @cached_property
+    def _inverse(self) -> np.ndarray:
+        return np.linalg.pinv(self.gains)
 
 
 class Arm:
