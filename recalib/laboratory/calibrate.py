@@ -13,8 +13,7 @@ from recalib.arrays import array_of, check_rotations
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.identification.checks.repeatability import returning
-from recalib.identification.checks.scales import scales
+from recalib.identification.checks.scales import returning, scales
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.validation import validate
 from recalib.laboratory.data_set import DataSet, data_set

@@ -451,10 +451,8 @@ def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
                 pivot = row
         if pivot != column:
             for other in range(column, size):
-                matrix[column, other], matrix[pivot, other] = (
-                    matrix[pivot, other],
-                    matrix[column, other],
-                )
+                number = matrix[column, other]
+                matrix[column, other], matrix[pivot, other] = matrix[pivot, other], number
             vector[column], vector[pivot] = vector[pivot], vector[column]
         inverse = 1 / matrix[column, column]
         for row in range(column + 1, size):

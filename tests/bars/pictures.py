@@ -11,7 +11,7 @@ import numpy as np
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification.checks.identifiability import unidentifiable_parameters
-from recalib.identification.checks.repeatability import returning
+from recalib.identification.checks.scales import returning
 from recalib.identification.closed_forms import solutions
 from recalib.identification.estimation import identify
 from recalib.identification.model.error_model import ErrorModel

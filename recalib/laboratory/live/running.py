@@ -12,7 +12,7 @@ from scipy.spatial.distance import cdist
 
 from recalib.identification.calibration import Calibration, calibrations, choose
 from recalib.identification.checks.diagnostics import FEWEST
-from recalib.identification.checks.repeatability import returning
+from recalib.identification.checks.scales import returning
 from recalib.identification.design import most_informative, surprises
 from recalib.identification.initial_estimate import SPARE, fewest
 from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
