@@ -194,8 +194,7 @@ class _Tree:
             link
             for link in self._links
             if link not in carrying
-            and base in self._way_up(link)
-            and any(joint.get("type") != "fixed" for joint in self._joints_up(link, base))
+            and any(joint.get("type") != "fixed" for joint in self._joints_up(link, base) or ())
         ]
         if not ends:
             raise UnsuitableRobot(f"no joint of {self._name} moves a link that hangs on {base}")
@@ -206,10 +205,11 @@ class _Tree:
 
     def joints_between(self, base: str, tool: str) -> list[str]:
         """Names of the joints that move one link against another."""
-        if base not in self._way_up(tool):
+        between = self._joints_up(tool, base)
+        if between is None:
             raise UnsuitableRobot(f"{base} does not carry {tool} in {self._name}")
         moving = []
-        for joint in self._joints_up(tool, base):
+        for joint in between:
             kind = joint.get("type")
             if kind not in KINDS:
                 raise UnsuitableRobot(
@@ -225,13 +225,12 @@ class _Tree:
             raise UnsuitableRobot(f"no joint of {self._name} moves {tool} against {base}")
         return moving
 
-    def _way_up(self, link: str) -> list[str]:
-        """The link and all that carry it."""
-        return [link, *(link_of(joint, "parent") for joint in self._joints_up(link, self.root))]
-
-    def _joints_up(self, link: str, base: str) -> list[ElementTree.Element]:
+    def _joints_up(self, link: str, base: str) -> list[ElementTree.Element] | None:
+        """The joints from a link up to a base; None if the base does not carry it."""
         joints = []
         while link != base:
+            if link not in self._joints:
+                return None
             joints.append(self._joints[link])
             link = link_of(joints[-1], "parent")
         return joints
