@@ -205,9 +205,8 @@ class Calibration:
 
 def turned(turns: np.ndarray, residuals: np.ndarray) -> np.ndarray:
     """Residuals (n, 3) or (n, 6) along other axes, by rotations (n, 3, 3)."""
-    return np.einsum("nij,nkj->nki", turns, residuals.reshape(len(turns), -1, 3)).reshape(
-        residuals.shape
-    )
+    vectors = residuals.reshape(len(turns), -1, 3)
+    return np.einsum("nij,nkj->nki", turns, vectors).reshape(residuals.shape)
 
 
 def calibrate(

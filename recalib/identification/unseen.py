@@ -64,11 +64,8 @@ def _slopes(model: ErrorModel, observations: Observations) -> np.ndarray:
 def anywhere(model: ErrorModel, observations: Observations, count: int) -> Observations:
     """So many observations of the same kind, of all targets, all over the joints' ranges."""
     arm, rng, rows = model.nominal.model, generator(0, "anywhere"), np.arange(count)
-    low, high = (
-        np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
-    )
+    low, high = np.clip([arm.lowerPositionLimit, arm.upperPositionLimit], -np.pi, np.pi)
     others = observations[rows % len(observations)]
     targets = rows % (int(observations.targets.max()) + 1)
-    return replace(
-        others, joints=rng.uniform(low, high, (count, len(low))), targets=targets, optics=None
-    )
+    joints = rng.uniform(low, high, (count, len(low)))
+    return replace(others, joints=joints, targets=targets, optics=None)

@@ -38,7 +38,7 @@ class GeometricLearner(Refitting):
     MODEL = "calibration"
 
     def __init__(self, controller: Controller, *, runs: int = 1):
-        super().__init__(len(controller.robot.joints), runs=runs)
+        super().__init__(runs=runs, sent=len(controller.robot.joints))
         self._controller = controller
 
     def command(self, desired: np.ndarray) -> np.ndarray:

@@ -62,8 +62,8 @@ class Refitting(Observer):
     """A learner with a model for each run, fitted anew now and then to all of the run's moves.
 
     Args:
-        sent: how many numbers are kept of what is sent in a move.
         runs: how many independent trainings.
+        sent: how many numbers are kept of what is sent in a move.
 
     Attributes:
         models: of each run; None where nothing has been learned.
@@ -72,7 +72,7 @@ class Refitting(Observer):
 
     MODEL: ClassVar[str]  # what a model is called in files
 
-    def __init__(self, sent: int = 6, *, runs: int = 1):
+    def __init__(self, *, runs: int = 1, sent: int = 6):
         self._moves = {
             "sent": np.empty((runs, 0, sent)),
             "achieved": np.empty((runs, 0, 6)),
