@@ -77,6 +77,14 @@ class HeldOut:
             radii.append(float(some[rank - 1]))  # the least that covers 95 % of others like them
         return max(radii)
 
+    def coverage(self) -> float:
+        """The part of positions within the radius of the other folds."""
+        within = [
+            self[self.folds == fold].errors[:, 0] <= self[self.folds != fold].radius()
+            for fold in np.unique(self.folds)
+        ]
+        return float(np.concatenate(within).mean())
+
 
 def random_folds(observations: Observations, postures: Postures) -> np.ndarray:
     """The number (n,) of the part that each row is in, with each target or socket in all of them.

@@ -110,6 +110,10 @@ class Validation:
         """
         return self.held_out_by(BLOCKWISE, self.chosen).radius()
 
+    def coverage(self, way: str) -> float:
+        """The part of held-out positions that lie within such a radius, made without them."""
+        return self.held_out_by(way, self.chosen).coverage()
+
 
 def validate(
     arm: Arm,

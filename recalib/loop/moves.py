@@ -33,7 +33,8 @@ def check_moves(
 
     Returns the last of these moves, commands, achieved and executed, with a move axis of 1.
     """
-    run, move, stuck = _first_wrong(commands, achieved, executed, *(last or NO_MOVES))
+    moves = commands, achieved, np.asarray(executed)
+    run, move, stuck = _first_wrong(*moves, *(last or NO_MOVES))
     if run >= 0:
         # A command may be NaN where a learner diverges; such a move is refused, and harmless.
         allowed = OUTSIDE + WRAPPED * np.abs(commands[run, move]).max()

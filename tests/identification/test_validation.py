@@ -48,6 +48,7 @@ def test_what_is_said_of_rows_held_out_holds_for_fresh_ones(real, validation):
     assert said.mean() == pytest.approx(errors.mean(), rel=0.2)
     assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * said.mean()
     assert np.mean(errors <= validation.radius) >= 0.9
+    assert 0.9 <= validation.coverage(RANDOM) <= 0.98
 
 
 def test_a_row_that_is_grossly_off_is_predicted_and_not_counted(validation):
@@ -218,6 +219,7 @@ def test_the_worst_part_decides_how_wide_intervals_are():
     errors[folds == 1] *= 3
     held = HeldOut(errors[:, None] * [0.6, 0.8, 0.0], folds)
     assert held.radius() == pytest.approx(3 * 96)
+    assert held.coverage() == pytest.approx((1.0 + 0.32) / 2)
 
 
 @pytest.mark.parametrize(("rows", "seed"), [(10, 0), (11, 0), (13, 2), (13, 3)])
@@ -228,4 +230,4 @@ def test_of_few_positions_errors_are_known_too(ur10, rows, seed):
     found = validate(ur10, observations, initial_frames(ur10, observations))
     assert found.lost[BLOCKWISE].sum() > rows / 2
     assert np.isfinite([found.mean_error(way, NOTHING) for way in WAYS]).all()
-    assert found.radius > 0
+    assert 0 <= found.coverage(BLOCKWISE) <= 1 and found.radius > 0
