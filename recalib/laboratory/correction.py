@@ -21,7 +21,7 @@ from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.archives import MOST, archive_of, opened, refused
 from recalib.files.storage import read_file, whole
 from recalib.identification.calibration import Calibration
-from recalib.identification.checks.poses import outside_of
+from recalib.identification.checks.postures import outside_of
 from recalib.identification.model.error_model import by_sight
 from recalib.laboratory.reaching import Goals, poses_at, reach_all
 from recalib.nominal.arms import arm_of

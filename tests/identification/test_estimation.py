@@ -41,7 +41,7 @@ def test_the_estimate_is_that_of_the_slow_implementation(robot, damaged, terms, 
         measured = measured[:, :3, 3]
     by_posture = model.terms(angles)
     parameters, noise, weights, evidence = reference.identify(
-        lambda these: model.linearise(these, angles, by_posture), model.deviations, measured
+        lambda these: model.linearise(these, angles, terms=by_posture), model.deviations, measured
     )
     found = identify(model, Observations(angles, measured))
     unknown = np.sqrt(np.diag(found.covariance))
@@ -82,7 +82,7 @@ def test_the_covariance_tells_how_wrong_predictions_are(robot, controller):
         parameters = model.deviations * generator.standard_normal(len(model.deviations))
         measured = NOISY.measure([generator], model.predict(parameters, known)[None])[0]
         estimate = identify(model, Observations(known, measured))
-        predicted, jacobians = model.linearise(estimate.parameters, asked, model.terms(asked))
+        predicted, jacobians = model.linearise(estimate.parameters, asked)
         squares.append(displacements(predicted, model.predict(parameters, asked)) ** 2)
         said.append(np.einsum("ndp,pq,ndq->nd", jacobians, estimate.covariance, jacobians))
     ratio = np.sqrt(np.mean(squares, axis=(0, 1)) / np.mean(said, axis=(0, 1)))

@@ -75,7 +75,7 @@ def test_a_frame_that_is_known_stays_as_it_is(known, positions, arm):
     assert real.error(partial(model.predict, parameters)) < 5e-4
     found = model.found(parameters)
     assert np.array_equal(found.base, frame) or np.array_equal(found.targets[0], frame)
-    standing = model.standing(parameters, joints, model.terms(joints))
+    standing = model.standing(parameters, joints)
     ends = found.base @ model.own_arm(parameters).forward(standing) @ found.targets[0]
     np.testing.assert_allclose(ends, model.predict(parameters, joints), atol=1e-12)
 

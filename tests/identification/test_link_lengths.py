@@ -7,8 +7,7 @@ import pinocchio as pin
 import pytest
 
 from recalib import OFFSETS, Calibration
-from recalib.identification.checks.diagnostics import Untrustworthy, check_links
-from recalib.identification.checks.link_lengths import link_lengths
+from recalib.identification.checks.diagnostics import Untrustworthy, check_links, link_lengths
 from recalib.identification.model import ErrorModel
 from tests.arms import RAILED, SCARA
 

@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -22,32 +20,11 @@ def calibration(robot) -> Calibration:
 
 
 def test_a_parameter_is_known_by_its_name_with_its_standard_error(calibration):
-    elbow, base = (
-        calibration.parameters[name] for name in ("offset of elbow_joint", "shift x of base")
-    )
+    named = {its.name: its for its in parameters_of(calibration.model, calibration.estimate)}
+    elbow, base = (named[name] for name in ("offset of elbow_joint", "shift x of base"))
     assert (elbow.unit, base.unit) == ("deg", "mm")
     assert (elbow.value, base.value) == pytest.approx((3, 4))
     assert (elbow.deviation, base.deviation) == pytest.approx((np.degrees(1e-4), 0.1))
-
-
-def test_what_is_held_at_nominal_is_no_parameter(calibration):
-    held = calibration.model.deviations.copy()
-    held[calibration.model.offset_columns] = 0.0
-    calibration.model.deviations = held
-    assert not [name for name in calibration.parameters if name.startswith("offset")]
-
-
-def test_a_summary_lists_what_is_clearly_not_zero_and_counts_the_rest(calibration):
-    text = calibration.summary()
-    assert "observations: 3, 1 of them outliers\nnoise along an axis: 0.2 mm\n" in text
-    rows = text.partition("std err\n")[2].splitlines()
-    assert [row.split() for row in rows[:-1]] == [
-        ["shift", "x", "of", "base", "4.0000", "0.1000", "mm"],
-        ["offset", "of", "elbow_joint", "3.0000", "0.0057", "deg"],
-    ]
-    assert rows[-1] == f"and {len(calibration.parameters) - 2} within 2 standard errors of zero"
-    unsettled = replace(calibration, estimate=replace(calibration.estimate, converged=False))
-    assert "converged: yes" in text and "converged: no" in unsettled.summary()
 
 
 def test_every_parameter_has_a_name_of_its_own(robot):

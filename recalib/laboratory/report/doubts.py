@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from recalib.identification.checks.poses import turned_axes
+from recalib.identification.checks.postures import turned_axes
 from recalib.identification.checks.sequence import Fault
 from recalib.identification.model.frames import HELD, Frames
 from recalib.identification.parameters import Parameter
