@@ -25,6 +25,7 @@ from recalib import (
     DamagedArm,
     EncoderShift,
     LinkShortening,
+    RadialLearner,
     Robot,
     Rules,
     Schedule,
@@ -134,7 +135,8 @@ def makers(robot) -> dict[str, Callable]:
     of_paper = partial(class_of("hierarchical"), rules=rules, schedule=schedule)
     peer_of = {its.kind: name for name, its in peers().items() if its.kind}
     of_today = {kind: partial(make_peer, name, robot=robot) for kind, name in peer_of.items()}
-    return {"hierarchical": of_paper} | of_today
+    radial = partial(RadialLearner, rules, schedule, 0.4)
+    return {"hierarchical": of_paper, "radial": radial} | of_today
 
 
 @pytest.fixture

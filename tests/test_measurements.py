@@ -18,7 +18,7 @@ TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 5, 6))
 
 @pytest.mark.parametrize("executed", [True, False], ids=["executed", "refused"])
 @pytest.mark.parametrize("bad", [np.nan, -np.inf, 1e7])
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", [*KINDS, "radial"])
 def test_a_learner_refuses_what_is_no_number_and_keeps_what_it_knew(name, bad, executed, makers):
     learner = makers[name](runs=RUNS)
     before = learner.command(TESTS)

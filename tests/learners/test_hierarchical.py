@@ -166,35 +166,3 @@ def test_nothing_is_learned_from_a_refused_move():
             # the first move teaches theta, the second the Jacobians
             assert not np.array_equal(second[name]["theta"], before[name]["theta"])
             assert np.array_equal(second[name]["jacobian"], before[name]["jacobian"])
-
-
-@pytest.mark.parametrize("increments", [True, False])
-def test_a_run_learns_the_same_alone_and_beside_others(increments):
-    """Bit for bit, also where another run's moves are refused."""
-    rules = Rules(increments, increments, increments, increments)
-    widths = SEPARATE_WIDTHS if increments else SINGLE_WIDTHS
-    beside, alone = (
-        HierarchicalLearner(rules, Schedule(1.5, widths, 0.9, 0.3), runs=n) for n in (3, 1)
-    )
-    desired = np.random.default_rng(8).uniform(-1, 1, (3, 40, 6))
-
-    def refuse_the_first(commands):
-        return strange_world(commands)._replace(executed=np.array([[False], [True], [True]]))
-
-    for t in range(40):
-        beside.learn(desired[:, t], refuse_the_first if t % 3 else strange_world, t / 40)
-        alone.learn(desired[1:2, t], strange_world, t / 40)
-    for name, learned in alone.state()[0].items():
-        for kind, held in learned.items():
-            assert np.array_equal(beside.state()[1][name][kind], held)
-
-
-@pytest.mark.parametrize("separate", [True, False])
-@pytest.mark.parametrize("sizes", [((3, 3, 3), (3, 3, 3)), ((2, 1, 4), (1, 1, 2))])
-def test_a_new_learner_commands_what_is_desired(sizes, separate):
-    widths = SEPARATE_WIDTHS if separate else SINGLE_WIDTHS
-    fresh = HierarchicalLearner(
-        Rules(separate, True, True, True, *sizes), Schedule(1.5, widths, 0.9, 0.3), runs=2
-    )
-    u = np.random.default_rng(0).uniform(-1.5, 1.5, (2, 30, 6))
-    assert np.allclose(fresh.command(u), u, atol=1e-14)

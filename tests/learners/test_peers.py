@@ -1,17 +1,16 @@
-"""What every peer of the paper's learners has to do, and how well each does it."""
+"""What every learner has to do, and how well the peers of the paper's learners do it."""
 
 import numpy as np
 import pytest
 
 from recalib import EccentricGear, InvalidSetting, Outcome, Plant, PolynomialLearner, apply
+from recalib.learners import KINDS
 from recalib.loop import measure
-from replication.training import UNCORRECTED, make_peer, peers
+from replication.training import make_peer
 
 RUNS = 2
 
 
-NAMES = [*peers()]
-LEARNING = [name for name in NAMES if name != UNCORRECTED]
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 40, 6))
 TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
 
@@ -28,36 +27,35 @@ def errors(learner, plant) -> tuple[float, float]:
     return 100 * position[:, 0].mean(), np.degrees(orientation[:, 0].mean())
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_learner_that_has_learned_nothing_commands_what_is_desired(name, robot):
-    assert np.array_equal(make_peer(name, RUNS, robot).command(TESTS), TESTS)
+EVERY = pytest.mark.parametrize("kind", [*KINDS, "radial"])
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_learning_takes_one_move_and_a_refused_move_teaches_nothing(name, robot):
-    learner, sent = make_peer(name, RUNS, robot), []
-
-    def refuse(commands):
-        sent.append(commands.shape)
-        return Outcome(np.zeros_like(commands), np.zeros(commands.shape[:2], dtype=bool))
-
-    learner.learn(DESIRED[:, 0], refuse, 0.0)
-    assert sent == [(RUNS, 1, 6)]
-    assert np.array_equal(learner.command(TESTS), TESTS)
+@EVERY
+def test_a_learner_that_has_learned_nothing_commands_what_is_desired(kind, makers):
+    assert makers[kind](runs=RUNS).command(3 * TESTS) == pytest.approx(3 * TESTS, abs=1e-14)
 
 
-@pytest.mark.parametrize("name", LEARNING)
-def test_one_run_can_be_refused_while_the_other_learns(name, robot, controller, damaged):
-    plant, learner = Plant(controller, damaged), make_peer(name, RUNS, robot)
+@EVERY
+def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
+    kind, makers, controller, damaged
+):
+    """Also beside a run whose moves are refused; a learner of today moves once."""
+    plant, sent = Plant(controller, damaged), []
+    beside, alone = makers[kind](runs=2), makers[kind](runs=1)
 
     def refuse_the_first(commands):
+        sent.append(commands.shape)
         outcome = plant.execute(commands)
         return Outcome(outcome.achieved, outcome.executed & np.array([[False], [True]]))
 
-    learner.learn(DESIRED[:, 0], refuse_the_first, 0.0)
-    commands = learner.command(TESTS)
-    assert np.array_equal(commands[0], TESTS[0])
+    for move in range(3):
+        beside.learn(DESIRED[:, move], refuse_the_first, move / 40)
+        alone.learn(DESIRED[1:, move], plant.execute, move / 40)
+    assert sent == [(RUNS, 1, 6)] * 3 * (1 + (kind == "hierarchical"))
+    commands = beside.command(TESTS)
+    assert commands[0] == pytest.approx(TESTS[0], abs=1e-14)
     assert np.abs(commands[1] - TESTS[1]).max() > 1e-2
+    assert np.array_equal(commands[1:], alone.command(TESTS[1:]))
 
 
 @pytest.mark.parametrize(

@@ -42,11 +42,3 @@ def test_what_is_learned_is_the_regularised_least_squares_solution(degree):
         solved = np.linalg.solve(there.T @ there + weights, there.T @ missed)
         expected = asked[run] + features(asked[run], degree)[0] @ solved
         np.testing.assert_allclose(commands[run], expected, rtol=0, atol=1e-9)
-
-
-def test_a_constant_shift_is_learned_at_once_by_as_much_as_the_prior_allows():
-    """From one move to the centre: the prior's variance over it and the noise's."""
-    learner, zero = PolynomialLearner(1), np.zeros((1, 1, 6))
-    learner.observe(zero + 0.2, zero, np.ones((1, 1), dtype=bool))
-    share = PRIOR[0] ** 2 / (PRIOR[0] ** 2 + NOISE**2)
-    assert learner.command(zero) == pytest.approx(zero + 0.2 * share)
