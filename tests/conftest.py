@@ -18,6 +18,7 @@ os.environ["OMP_NUM_THREADS"] = "1"
 import numpy as np
 import pytest
 from hypothesis import settings
+from pydantic import BaseModel
 
 from recalib import (
     Arm,
@@ -111,9 +112,15 @@ def plan(study) -> Plan:
     return Plan(study)
 
 
-def changed(nominal: Nominal, **entry) -> Nominal:
-    """The robot with keys of its entry changed, in SI units."""
-    return nominal.model_copy(update={"robot": nominal.robot.model_copy(update=entry)})
+def changed(model: BaseModel, **keys):
+    """A model, such as a study, with keys of it changed, and by mappings those of its parts."""
+
+    def part(own, value):
+        inner = isinstance(own, BaseModel) and isinstance(value, dict)
+        return changed(own, **value) if inner else value
+
+    update = {name: part(getattr(model, name), value) for name, value in keys.items()}
+    return model.model_copy(update=update)
 
 
 @pytest.fixture(scope="session")

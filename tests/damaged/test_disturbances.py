@@ -1,8 +1,11 @@
+"""What moves and measurements of a plant meet: noise, outliers, repeatability, and refusals."""
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import (
+    BaseShift,
     Controller,
     Disturbances,
     InvalidSetting,
@@ -10,6 +13,7 @@ from recalib import (
     Outliers,
     Plant,
     Repeatability,
+    apply,
     load_robot,
     orientation_error,
 )
@@ -134,3 +138,32 @@ def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, com
 def test_impossible_sizes_are_refused_by_name(kind, sizes, message):
     with pytest.raises(InvalidSetting, match=message):
         kind(*sizes)
+
+
+@pytest.fixture
+def few() -> np.ndarray:
+    few = np.random.default_rng(3).uniform(-0.8, 0.8, (2, 3, 6))
+    few[1, 2] = 50  # out of reach
+    return few
+
+
+def test_a_robot_for_each_run_does_what_it_does_alone(controller, damaged, few):
+    moved = apply(controller.robot, [BaseShift(translate=(0.01, 0.0, 0.02))])
+    together = Plant(controller, [damaged, moved]).execute(few)
+    for run, arm in enumerate((damaged, moved)):
+        alone = Plant(controller, arm).execute(few[[run]])
+        assert np.array_equal(together.achieved[[run]], alone.achieved)
+        assert np.array_equal(together.executed[[run]], alone.executed)
+
+
+def test_moves_are_counted_with_those_that_were_refused_and_measuring_is_not(
+    controller, damaged, few
+):
+    plant = Plant(controller, damaged)
+    poses, executed = plant.achieve(few)
+    assert plant.moves == plant.refused == 0
+    home = damaged.forward(controller.robot.home[None])[0]
+    assert np.argwhere(~executed).tolist() == [[1, 2]] and np.allclose(poses[1, 2], home)
+    for _ in range(2):
+        plant.execute(few)
+    assert plant.moves == 6 and plant.refused.tolist() == [0, 2]

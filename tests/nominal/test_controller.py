@@ -74,7 +74,7 @@ def test_a_pose_beyond_a_joint_limit_on_either_side_is_an_error(plan, controller
     bounds = np.radians([-360, 360])
     for beyond in (True, False):
         bounds[int(angle > 0)] = angle + np.copysign(0.01, angle) * (-1 if beyond else 1)
-        limited = changed(plan.nominal("ur10"), limits={"wrist_3_joint": bounds})
+        limited = changed(plan.nominal("ur10"), robot={"limits": {"wrist_3_joint": bounds}})
         if beyond:
             with pytest.raises(Unreachable, match="only beyond the joint limits"):
                 nominal_controller(limited).inverse(turned)
@@ -108,16 +108,17 @@ def test_a_command_that_turns_far_is_solved_as_its_pose(controller):
 
 def test_a_workspace_out_of_reach_is_refused(plan):
     nominal = plan.nominal("ur10")
-    far = nominal.robot.workspace.model_copy(update={"position": (1.5, 1.5, 1.5)})
+    far = changed(nominal, robot={"workspace": {"position": (1.5, 1.5, 1.5)}})
     message = r"cannot reach \d+ of the 729 poses.*Make its workspace smaller"
     with pytest.raises(UnfitWorkspace, match=message):
-        nominal_controller(changed(nominal, workspace=far))
+        nominal_controller(far)
 
 
 @pytest.mark.parametrize("limits", [(110, 350), (-350, 130)], ids=["lower", "upper"])
 def test_a_workspace_beyond_a_joint_limit_is_refused(plan, limits):
     message = "move elbow_joint to .* deg in .* limits of {:.1f} deg to {:.1f} deg".format(*limits)
-    limited = changed(plan.nominal("ur10"), limits={"elbow_joint": np.radians(limits)})
+    limits = {"elbow_joint": np.radians(limits)}
+    limited = changed(plan.nominal("ur10"), robot={"limits": limits})
     with pytest.raises(UnfitWorkspace, match=message):
         nominal_controller(limited)
 

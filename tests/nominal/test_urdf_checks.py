@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from recalib import RecalibError, UnsuitableRobot
+from recalib import RecalibError, UnknownName, UnsuitableRobot
 from recalib.laboratory.urdf.origins import corrected_urdf
 from recalib.nominal import arm_of
 from tests.arms import RAILED, urdf
@@ -24,6 +24,9 @@ GRIPPER = (
 LOOP = (
     '<joint name="back" type="revolute"><parent link="base"/><child link="link_2"/></joint></robot>'
 )
+CIRCLE = """<link name="one"/><link name="two"/>
+<joint name="j" type="fixed"><parent link="one"/><child link="two"/></joint>
+<joint name="k" type="fixed"><parent link="two"/><child link="one"/></joint></robot>"""
 
 
 @pytest.mark.parametrize(
@@ -57,12 +60,21 @@ LOOP = (
         (('name="one"', 'name="o&#10;ne"'), r"a joint in arm.urdf has the name 'o\\nne'"),
         (('name="two"', 'name=" "'), "a joint in arm.urdf has the name ' '"),
         (('name="link_2"', 'name="a&#x202e;"'), r"a link in arm.urdf has the name 'a\\u202e'"),
+        (('"revolute"', '"planar"'), "one in arm.urdf .* planar"),
+        (('"revolute"', '"floating"'), "one in arm.urdf .* float"),
+        (('lower="-2"', 'lower="3"'), "the limits of one are 3.0 to 2.0 in"),
+        ((ARM, '<robot name="x"><link/><joint type="fixed"/></robot>'), "not a URDF"),
         (("</robot>", "<robot>"), r"it is not XML: line \d+, column \d+: no element found"),
     ],
 )
 def test_a_mistake_is_named(change, message):
     with pytest.raises(RecalibError, match=message):
         arm_of(ARM.replace(*change, 1).encode(), PATH)
+
+
+def test_links_in_a_circle_of_their_own_are_not_the_arms():
+    with pytest.raises(UnknownName, match="tool link .* 'one'; expected: base"):
+        arm_of(ARM.replace("</robot>", CIRCLE).encode(), PATH, "one")
 
 
 def test_an_arm_of_too_many_joints_is_refused():

@@ -11,6 +11,7 @@ from replication.config import MOST_SHOWN, InvalidConfiguration, Study, read_stu
 from replication.running import study_of
 from replication.running.checks import check, check_robots
 from tests.conftest import ROOT
+from tests.conftest import changed as with_keys
 
 SHIPPED = ROOT / "config.yaml"
 # without lines of comments, which take time to read
@@ -140,8 +141,7 @@ def test_the_shipped_configuration_passes_in_no_time():
 def test_a_redundant_arm_is_asked_for_no_evidence():
     study = read_study(SHIPPED, ROOT / "workflow" / "studies" / "panda.yaml")
     assert check_robots(study) == []
-    judged = study.experiments.model_copy(update={"evidence": True})
-    (mistake,) = check_robots(study.model_copy(update={"experiments": judged}))
+    (mistake,) = check_robots(with_keys(study, experiments={"evidence": True}))
     assert mistake.path == ("experiments", "evidence")
     assert "expected: false with the panda, an arm of 7 joints" in mistake.fault
 

@@ -7,6 +7,7 @@ import pytest
 from replication.judgement import moves_to_reach, put_together, real_errors
 from replication.running import write
 from replication.training import ERRORS
+from tests.conftest import changed
 
 SEEDS = 21
 SCENARIOS, LEARNERS = ("sag", "noise"), ("hybrid", "improved")
@@ -27,15 +28,8 @@ def tables(study, tmp_path_factory) -> tuple[pd.DataFrame, ...]:
                     rows.append(about | its | {"seconds_per_move": len(learner)})
         paths.append(folder / f"{learner}.parquet")
         write(paths[-1], pd.DataFrame(rows).sample(frac=1, random_state=0))
-    plan = study.benchmark.model_copy(
-        update={
-            "scenarios": SCENARIOS,
-            "learners": LEARNERS[:1],
-            "papers": {"improved": 30},
-            "thresholds": (1.0, 0.1),
-        }
-    )
-    return put_together(study.model_copy(update={"benchmark": plan}), paths)
+    plan = {"scenarios": SCENARIOS, "learners": LEARNERS[:1], "papers": {"improved": 30}}
+    return put_together(changed(study, benchmark=plan | {"thresholds": (1.0, 0.1)}), paths)
 
 
 def test_errors_are_means_over_seeds_at_each_budget(tables):

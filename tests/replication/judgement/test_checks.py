@@ -9,6 +9,8 @@ from recalib import RecalibError
 from replication.judgement import BAND, cells_of_mean, check, expect, propose, report, summarise
 from replication.running import BANDS, write
 from replication.training import ERRORS, places
+from tests.conftest import changed
+from tests.replication.conftest import ALONE
 
 KEYS = {"robot": "ur10", "learner": "improved", "iterations": 200}
 SUMMARY = pd.DataFrame(
@@ -46,16 +48,8 @@ def test_intervals_hold_the_mean_as_often_as_they_say():
 
 
 def test_a_summary_has_a_row_for_each_place_learner_and_length(study, tmp_path):
-    plan = study.experiments.model_copy(
-        update={
-            "scenarios": ("links",),
-            "learners": {"improved": (10, 20)},
-            "robots": ("z1",),
-            "own": {},
-            "switches": False,
-        }
-    )
-    small, paths = study.model_copy(update={"experiments": plan}), []
+    plan = {"scenarios": ("links",), "learners": {"improved": (10, 20)}}
+    small, paths = changed(study, experiments=plan | ALONE | {"robots": ("z1",)}), []
     for number, learners in enumerate(places(small).values()):
         rows = [
             {"iterations": its, "seed": seed, "iteration": when, "moves": 2 * when, "refused": seed}

@@ -12,7 +12,7 @@ from replication.judgement import Evidence, Verdict, read_findings, written
 from replication.judgement.claims import OfSetups, claims, judge
 from replication.running import write
 from replication.training import ERRORS, KINDS
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 
 SETUPS, OWN, LUCK = 24, 0.05, 0.01
 BEST, LEFT = np.log(0.03), np.log(0.5)  # shares that the improved system and Ritter's map leave
@@ -136,5 +136,5 @@ def test_every_claim_says_all_of_itself(study):
 
 def test_without_results_nothing_is_judged(study, tmp_path):
     assert judge(Evidence(study, tmp_path)) == ()
-    other = study.model_copy(update={"name": "mine"})
+    other = changed(study, name="mine")
     assert judge(Evidence(other, tmp_path)) == ()

@@ -6,6 +6,7 @@ import pytest
 from replication.judgement import Evidence, NotMeasured
 from replication.running import write
 from replication.training import ERRORS
+from tests.conftest import changed
 
 
 @pytest.fixture
@@ -50,6 +51,5 @@ def test_what_a_study_lacks_is_named(evidence, ask, key):
 def test_the_campaign_is_that_of_the_shipped_study(study, tmp_path):
     write(tmp_path / "workflow/campaign/outcomes.csv", pd.DataFrame({"setup": [0]}))
     assert len(Evidence(study, tmp_path).outcomes()) == 1
-    other = study.model_copy(update={"name": "mine"})
     with pytest.raises(NotMeasured, match="name: replication"):
-        Evidence(other, tmp_path).outcomes()
+        Evidence(changed(study, name="mine"), tmp_path).outcomes()

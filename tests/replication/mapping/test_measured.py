@@ -9,6 +9,7 @@ from replication.judgement.claims import Measured, claims
 from replication.mapping import measured, nearness, quantisation, solutions
 from replication.running import write
 from replication.training import Place, constant_widths, places, write_scenarios
+from tests.conftest import changed
 
 FIRST = "coupling", "nearness", "propagation", "quantisation", "solutions", "visits"
 SECOND = "replay", "widths"
@@ -24,13 +25,9 @@ OF_MORE = "grid", "weak-coupling-reason", "coarse-widths"  # draws and seeds tha
 
 @pytest.fixture(scope="module")
 def few(study):
-    plan = study.experiments.model_copy(
-        update={"scenarios": ("links_encoders", "rotation"), "robots": ()}
-    )
-    mapping = study.mapping.model_copy(
-        update={"poses": 6, "balls": 3, "points": 10, "scales": (0.5, 1.0)}
-    )
-    return study.model_copy(update={"experiments": plan, "mapping": mapping, "name": "few"})
+    plan = {"scenarios": ("links_encoders", "rotation"), "robots": ()}
+    mapping = {"poses": 6, "balls": 3, "points": 10, "scales": (0.5, 1.0)}
+    return changed(study, experiments=plan, mapping=mapping, name="few")
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from replication.config import Study, root_of
 from replication.judgement import Evidence, written
 from replication.judgement.claims import judge
 from replication.training import ERRORS, Place, places
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import outcomes
 
 COMMITTED = "config.yaml", "pyproject.toml", "workflow/deviations.yaml"
@@ -73,8 +73,7 @@ def project(tmp_path_factory) -> Callable[[Study, int], Path]:
         )
         summary(study).to_csv(results / "summary.csv", index=False)
         if setups:
-            few = study.campaign.model_copy(update={"setups": setups})
-            table = outcomes(study.model_copy(update={"campaign": few}))
+            table = outcomes(changed(study, campaign={"setups": setups}))
             table.to_csv(folder / "workflow" / "campaign" / "outcomes.csv", index=False)
         (results / "claims.json").write_bytes(written(judge(evidence)))
         return folder

@@ -23,7 +23,7 @@ from replication.plots import (
     styles_of,
     styles_of_trainings,
 )
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import NEEDED, disturbed
 
 
@@ -155,12 +155,11 @@ def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_pa
     assert figures_of(small) == every and every[0] == "figure1"
     campaign = {Figure.STEPS.file, Figure.CONTRASTS.file}
     untold = [name for name in every if name not in campaign]
-    other = small.model_copy(update={"name": "other"})
+    other = changed(small, name="other")
     assert figures_of(other) == untold
     monkeypatch.chdir(tmp_path)
     assert figures_of(small) == untold, "no setup is measured"
-    plan = small.experiments.model_copy(update={"evidence": False})
-    quick = other.model_copy(update={"experiments": plan})
+    quick = changed(other, experiments={"evidence": False})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
     assert figures_of(quick) == [its.file for its in trained]
 

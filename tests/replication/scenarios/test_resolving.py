@@ -9,17 +9,15 @@ from replication.judgement import Evidence, NotMeasured
 from replication.running import write
 from replication.scenarios import Resolved, resolve
 from replication.training import places, write_scenarios
+from tests.conftest import changed
 
 
 @pytest.fixture(scope="module")
 def few(study):
-    plan = study.experiments.model_copy(
-        update={"scenarios": ("intact", "links", "encoders", "links_encoders"), "robots": ("z1",)}
-    )
-    damage = study.paper_damage.model_copy(
-        update={"shorten": (0.04,), "shift": (0.07,), "poses": 10}
-    )
-    return study.model_copy(update={"experiments": plan, "paper_damage": damage, "name": "few"})
+    scenarios = "intact", "links", "encoders", "links_encoders"
+    plan = {"scenarios": scenarios, "robots": ("z1",)}
+    damage = {"shorten": (0.04,), "shift": (0.07,), "poses": 10}
+    return changed(study, experiments=plan, paper_damage=damage, name="few")
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +69,7 @@ def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(study, pla
     commands = np.zeros((1, 4, 6))
 
     def met(name, seed, runs):
-        resolved = plan.resolved("intact").model_copy(update={"scenario": name, "damages": noisy})
+        resolved = changed(plan.resolved("intact"), scenario=name, damages=noisy)
         plant = resolved.plant(resolved.controller(), seed, runs)
         return plant.execute(np.repeat(commands, len(runs), axis=0)).achieved
 

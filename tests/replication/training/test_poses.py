@@ -23,6 +23,7 @@ from replication.training import (
     write_scenarios,
 )
 from replication.training import poses as module
+from tests.conftest import changed
 from tests.replication.conftest import settings_of
 
 WORDS = {"number": 1, "setup": 0, "replicate": 0, "widths": "wide"}
@@ -93,9 +94,7 @@ def few(study):
         "paper_damage": {"shorten": (0.04,), "shift": (0.07,), "poses": 5},
     }
     rest |= {"experiments": experiments}
-    return study.model_copy(
-        update={name: getattr(study, name).model_copy(update=its) for name, its in rest.items()}
-    )
+    return changed(study, **rest)
 
 
 class Drawn:

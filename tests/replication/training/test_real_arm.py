@@ -33,7 +33,7 @@ from replication.training import (
     remaining_errors,
     with_tool_point,
 )
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 
 # As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
@@ -132,9 +132,8 @@ def files(table, tmp_path):
 
 
 def learned(study, files, learner, poses, subsets, settings=(), **changes):
-    real = study.real.model_copy(update={"poses": poses, "subsets": subsets} | changes)
-    its = study.model_copy(update={"real": real})
-    return learn(its, learner, *files, settings)
+    real = {"poses": poses, "subsets": subsets} | changes
+    return learn(changed(study, real=real), learner, *files, settings)
 
 
 def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(study, files, monkeypatch):
@@ -155,8 +154,7 @@ def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(study, files,
 
 
 def test_on_a_twin_a_learner_chooses_its_poses(study, files, settings, monkeypatch):
-    training = study.training.model_copy(update={"tests": 5})
-    its = study.model_copy(update={"training": training})
+    its = changed(study, training={"tests": 5})
     asked, learner = [], Tuned.learner
 
     def noted(self, *what):
@@ -201,10 +199,8 @@ def test_another_table_than_the_one_that_is_meant_is_refused(digest, study, tmp_
         Source(url="https://there", file=str(given), sha256=sha256) for sha256 in (its, digest)
     )
     assert fetched(right) == b"a table"
-    data = study.real.data.model_copy(update={"fit": right, "test": wrong})
-    real = study.real.model_copy(update={"data": data})
     with pytest.raises(RecalibError, match=f"has SHA-256 {its}; expected {digest}"):
-        fetch(study.model_copy(update={"real": real}))
+        fetch(changed(study, real={"data": {"fit": right, "test": wrong}}))
 
 
 def test_a_table_out_of_reach_says_how_to_bring_one(tmp_path):

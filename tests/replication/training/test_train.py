@@ -14,7 +14,8 @@ from replication.running import write
 from replication.training import Stream
 from replication.training import train as module
 from replication.training.train import train
-from tests.replication.conftest import settings_of
+from tests.conftest import changed
+from tests.replication.conftest import ALONE, settings_of
 
 SPARSE = Measuring(tests=2, measure_every=4, measure_evenly=200, measurements=50)
 
@@ -59,17 +60,8 @@ def test_poses_are_independent_by_default_or_spread_evenly():
 
 @pytest.fixture(scope="module")
 def small(study):
-    plan = study.experiments.model_copy(
-        update={
-            "scenarios": ("links",),
-            "learners": {"improved": (6, 9)},
-            "own": {},
-            "robots": (),
-            "switches": False,
-        }
-    )
-    training = study.training.model_copy(update={"seeds": 2, "tests": 5, "measure_every": 4})
-    return study.model_copy(update={"experiments": plan, "training": training})
+    plan = {"scenarios": ("links",), "learners": {"improved": (6, 9)}} | ALONE
+    return changed(study, experiments=plan, training={"seeds": 2, "tests": 5, "measure_every": 4})
 
 
 @pytest.fixture
