@@ -39,14 +39,15 @@ def cycle(
 ):
     """One iteration of every map for the desired pose u; `widths`: of g_k and g_kl for each map.
 
+    `execute` returns the pose that a command leads to, and whether it was executed.
     Poses are measured in coordinates; (3) and (8) are taken where `units` of them are one, widths
     are given where `width_units` are.
     """
     winners = [(m.winner(u), m.theta[m.winner(u)].copy(), m.A[m.winner(u)].copy()) for m in maps]
     command = np.concatenate([m.output(u) for m in maps])
-    u1 = execute(command)
+    u1, first = execute(command)
     correction = np.concatenate([A @ (u - u1) for _, _, A in winners])
-    u2 = execute(command + correction)
+    u2, second = execute(command + correction)
     du = u2 - u1
     for m, (cell, theta, A), (width_k, width_kl) in zip(maps, winners, widths, strict=True):
         d_theta = A @ (u - u1)
@@ -61,11 +62,11 @@ def cycle(
             far_kl = (m.w_kl[j] - m.w_kl[cell[1]]) * width_units[3:]
             g_k = np.exp(-(np.linalg.norm(far_k) ** 2) / (2 * width_k**2))
             g_kl = np.exp(-(np.linalg.norm(far_kl) ** 2) / (2 * width_kl**2))
-            c = rate * g_k * g_kl
+            c = rate * g_k * g_kl * first  # nothing of a refused move
             m.theta[i, j] = m.theta[i, j] + c * (
                 theta_star if theta_increments else theta_star - m.theta[i, j]
             )  # (7) or (4)
-            m.A[i, j] = m.A[i, j] + c * (
+            m.A[i, j] = m.A[i, j] + c * second * (
                 A_star if jacobian_increments else A_star - m.A[i, j]
             )  # (9) or (5)
 

@@ -19,8 +19,10 @@ from tests.laboratory.conftest import (
     ARM,
     NOISE,
     ROWS,
+    angles_in,
     in_degrees,
     in_millimetres,
+    measured,
     postures,
     read,
     table,
@@ -70,7 +72,7 @@ def test_commands_take_the_calibrated_arm_to_what_is_desired(calibrated, arm, fo
     out = folder / "commands.csv"
     assert main(["correct", str(calibrated), str(folder / "desired.csv"), f"--out={out}"]) == DONE
     sent = read(out)
-    commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
+    commanded = angles_in(sent, arm)
     assert np.allclose(commanded, joints, atol=1e-6)
     fake = 1e-3 * np.array([sent[f"{axis}_fake [mm]"] for axis in "xyz"]).T
     assert np.allclose(fake, arm.forward(commanded)[:, :3, 3], atol=1e-9)
@@ -96,7 +98,7 @@ def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_
     arguments = ["correct", str(calibrated / "correction.npz"), desired, f"--out={out}"]
     assert main(arguments) == DONE
     sent = read(out)
-    commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
+    commanded = angles_in(sent, arm)
     reached = to_instrument(true_positions(arm, commanded))
     assert np.abs(reached - goals).max() < 6 * NOISE
     assert "not identifiable" not in capsys.readouterr().err
@@ -122,8 +124,7 @@ def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_
 def in_base(arm, folder):
     """A calibration whose instrument and target are known: poses may be desired in the base."""
     joints = postures(12)
-    noise = NOISE * np.random.default_rng(13).standard_normal((ROWS, 3))
-    write(folder / "known.csv", table(arm, joints, true_positions(arm, joints) + noise))
+    write(folder / "known.csv", table(arm, joints, measured(arm, joints, 13)))
     lines = '[instrument]\nposition = ["0 m", "0 m", "0 m"]\n'
     (folder / "known.toml").write_text(lines + lines.replace("instrument", "target"))
     files = [str(folder / name) for name in ("arm.urdf", "known.csv")]
@@ -177,8 +178,8 @@ def test_beyond_what_was_learned_it_warns(in_base, folder, capsys):
 def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, capsys):
     out = folder / "next.csv"
     assert main(["next", str(calibrated), "--count=4", f"--out={out}"]) == DONE
-    proposed = np.radians([read(out)[f"{joint} [deg]"] for joint in arm.joints])
-    assert proposed.shape == (3, 4) and np.abs(proposed).max() < 0.95 * 2
+    proposed = angles_in(read(out), arm)
+    assert proposed.shape == (4, 3) and np.abs(proposed).max() < 0.95 * 2
     message = (
         r"4 postures in .*, the most informative first\.\nThey would reduce the uncertainty of"
     )

@@ -1,3 +1,6 @@
+"""Arms as they are loaded: their joints, points and links, and what is said in loading."""
+
+import os
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -6,7 +9,7 @@ import numpy as np
 import pytest
 
 from recalib import InvalidFile, InvalidSetting, UnsuitableRobot, load_arm
-from recalib.nominal import UrdfFile, find_urdf
+from recalib.nominal import STDERR, UrdfFile, caught_messages, find_urdf
 from tests.arms import GANTRY, SCARA
 
 # Of example-robot-data: the tool, and how many joints move it.
@@ -136,3 +139,50 @@ def test_what_is_no_file_of_ones_own_is_not_passed_over(tmp_path, monkeypatch):
     assert find_urdf("panda.urdf").is_absolute()
     with pytest.raises(InvalidFile, match="it is a folder; expected: a file"):
         load_arm(tmp_path)
+
+
+POSTURES = {
+    "ur10_robot.urdf": ("tool0", [0.0, -1.4, 2.1, -2.9, -1.6, 0.1]),
+    "tiago.urdf": ("hand_tool_link", [0.2, 1.0, -0.5, 1.0, 1.2, -1.0, 0.5, 0.5]),
+}
+
+
+@pytest.fixture(params=POSTURES)
+def arm_and_angles(request):
+    tool, posture = POSTURES[request.param]
+    random = np.random.default_rng(1)
+    angles = posture + random.uniform(-0.1, 0.1, (3, len(posture)))
+    return load_arm(request.param, tool), angles
+
+
+def test_a_skeleton_goes_from_the_base_over_the_joints_to_the_tool(arm_and_angles):
+    """Rotating a joint leaves where it and those before it are; the tool is where it is."""
+    arm, angles = arm_and_angles
+    points = arm.skeleton(angles)
+    joints = len(arm.joints)
+    assert points.shape == (3, joints + 2, 3) and not points[:, 0].any()
+    assert np.allclose(points[:, -1], arm.forward(angles)[:, :3, 3])
+    for joint in np.flatnonzero(~arm.slides):
+        moved = arm.skeleton(angles + 0.3 * (np.arange(joints) == joint))
+        assert np.allclose(moved[:, : joint + 2], points[:, : joint + 2])
+    assert not np.allclose(arm.skeleton(angles + 0.3)[:, 2:], points[:, 2:], atol=0.01)
+
+
+def test_lines_are_caught_and_the_next_ones_are_written_again(capfd):
+    with caught_messages() as lines:
+        os.write(STDERR, b"Error: one\n two\n")
+    os.write(STDERR, b"three\n")
+    assert lines == ["Error: one", " two"]
+    assert capfd.readouterr().err == "three\n"
+
+
+def test_where_stderr_is_closed_nothing_is_caught():
+    before = os.dup(STDERR)
+    os.close(STDERR)
+    try:
+        with caught_messages() as lines:
+            pass
+    finally:
+        os.dup2(before, STDERR)
+        os.close(before)
+    assert lines == []

@@ -1,13 +1,18 @@
+"""One run at a time in a folder, and what ends one."""
+
 import multiprocessing
 import os
 import shutil
 import signal
+import subprocess
+import sys
 
 import pytest
 
 from recalib import RecalibError
 from recalib.files import whole
 from replication.running import MARK, NOTES, check_known, check_writable, hold
+from tests.conftest import ROOT
 
 
 def killed_while_writing(path):
@@ -89,3 +94,19 @@ def test_a_folder_that_is_read_only_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "access", lambda path, mode: False)  # root may write everywhere
     with pytest.raises(RecalibError, match=f"^nothing can be written in {tmp_path};"):
         check_writable(new)
+
+
+WORKING = "print('at work', flush=True); import time; time.sleep(600)"
+
+
+def test_a_job_ends_at_once_and_without_a_word():
+    its = subprocess.Popen(
+        [sys.executable, "-c", WORKING],
+        env=os.environ | {"PYTHONPATH": str(ROOT / "workflow" / "start")},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    its.stdout.readline()
+    its.send_signal(signal.SIGINT)
+    assert its.communicate()[1] == b""
+    assert its.returncode == -signal.SIGINT

@@ -1,10 +1,11 @@
 """Mean, heterogeneity and luck. That they cover the truth is in campaign/test_table_to_verdict."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.stats import t as student_t
 
-from replication.judgement import hierarchy, model, student
+from replication.judgement import hierarchy, model, strongest, student
 
 # Trials of the BCG vaccine (Colditz et al. 1994, JAMA 271): vaccinated with and without
 # tuberculosis, others with and without. Log risk ratios have known variances.
@@ -80,3 +81,32 @@ def test_a_bound_counts_as_one_and_not_as_a_number():
     cut, bounds = np.minimum(values, end), (values > end).astype(int)
     whole, known, naive = (model(*its).mean.mean for its in ((values,), (cut, bounds), (cut,)))
     assert abs(known - whole) < 0.05 < whole - naive
+
+
+SETUPS = 30
+
+
+def levels(random) -> pd.DataFrame:
+    factors = {name: np.arange(SETUPS) % count for name, count in (("a", 2), ("b", 3), ("c", 5))}
+    return pd.DataFrame({name: random.permutation(its) for name, its in factors.items()})
+
+
+def test_the_factor_that_moves_a_number_is_named():
+    random = np.random.default_rng(1)
+    design = levels(random)
+    numbers = 0.1 * random.normal(size=SETUPS) + 0.2 * (design["b"] == 2)
+    assert strongest(numbers.to_numpy(), design) == "b"
+
+
+def test_in_95_percent_no_factor_without_effect_is_named():
+    named = 0
+    for repetition in range(200):
+        random = np.random.default_rng(repetition)
+        named += strongest(random.normal(size=SETUPS), levels(random)) is not None
+    assert named <= 19, "of 200: the binomial's 99 %"
+
+
+def test_of_few_setups_nothing_is_named():
+    """While a campaign is being measured, a level may have one setup, or none."""
+    design = pd.DataFrame({"a": ["x", "y", "z"], "b": ["x", "x", "x"]})
+    assert strongest(np.array([0.0, 5.0, 9.0]), design) is None
