@@ -57,11 +57,7 @@ def result(
 @pytest.mark.parametrize(
     ("away", "geometry", "said"),
     [
-        (
-            1.48e-3,
-            1.72e-3,
-            "Careful: expect 1.48 mm away from the measured postures, not 0.405 mm. The error",
-        ),
+        (1.48e-3, 1.72e-3, "Careful: expect 1.48 mm away from the measured postures, not 0.405 mm"),
         (0.7e-3, 1.72e-3, ""),
         (1.48e-3, 0.7e-3, ""),
     ],

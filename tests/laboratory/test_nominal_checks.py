@@ -150,10 +150,7 @@ def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
     ("spoil", "words"),
     [
         (lambda poses: np.linalg.inv(poses), "poses of the instrument in the target's frame"),
-        (
-            lambda poses: with_turns(poses, poses[::-1]),
-            "rotations of another frame or in another notation: pos",
-        ),
+        (lambda poses: with_turns(poses, poses[::-1]), "rotations of another frame or in another"),
         (
             lambda poses: with_turns(poses, poses.swapaxes(1, 2)),
             "rotations of the instrument in the target's frame",

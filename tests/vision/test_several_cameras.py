@@ -188,13 +188,7 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
 @pytest.mark.parametrize(
     ("cell", "slip", "size", "turn", "said"),
     [
-        (
-            Cell(SEED, True),
-            ("eye", SHIFT),
-            1.0,
-            0.0,
-            "the camera seems to have slipped on the tool",
-        ),
+        (Cell(SEED, True), ("eye", SHIFT), 1.0, 0.0, "the camera seems to have slipped on the too"),
         (Cell(SEED), ("sheet", TURN), None, 0.2, "the board seems to have slipped on the tool"),
         (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "camera or base seem to have moved"),
         (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "board or base seem to have moved"),
@@ -251,10 +245,7 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
         ((on_the_hand(), "right"), "its board 'board' differs from that in "),
         ((changed(1, board=SMALL), "right"), "its board 'board' differs from that in "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
-        (
-            (changed(1, sheet=FAR), "right"),
-            "the board by camera right is 825 mm from its place by the o",
-        ),
+        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from its place by"),
         ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
     ],
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],
