@@ -7,7 +7,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from recalib import OFFSETS, Calibration, Observations, RecalibError, initial_frames
+from recalib import OFFSETS, BadMeasurement, Calibration, Observations, RecalibError, initial_frames
 from recalib.identification import identify
 from recalib.identification.checks.diagnostics import (
     Untrustworthy,
@@ -32,33 +32,31 @@ def good(ur10) -> Observations:
     return Real(ur10, 3).observe(30, False)
 
 
-@pytest.mark.parametrize(
-    ("spoil", "said"),
-    [
-        (lambda its: its[:0], r"the number of observations measured \(0\); expected: one or more"),
-        (
-            lambda its: replace(its, joints=its.joints + 14 * (np.arange(30) == 7)[:, None]),
-            r"joint angles of measurement 7 .*; expected: numbers up to 12.6 \(rad\)",
-        ),
-        (lambda its: replace(its, joints=its.joints[:, :5]), r"'joints' .*; expected: \(30, 6\)"),
-        (
-            lambda its: replace(its, measured=its.measured[:, :2]),
-            r"'measured' .* \(30, 2, 4\); expected: \(30, 3\) or \(30, 4, 4\)",
-        ),
-        (
-            lambda its: replace(its, measured=60 * its.measured),
-            r"measurement 0 .*; expected: numbers up to 10 \(m in the base frame\)",
-        ),
-        (
-            lambda its: replace(its, targets=np.arange(30) // 20),
-            r"target of measurement 20 measured \(1\); expected: below 1",
-        ),
-    ],
-    ids=["none", "far joints", "a joint less", "half a pose", "far poses", "unknown target"],
-)
+def spoilt(values, bad):
+    values = values.copy()
+    values[7, 1] = bad
+    return values
+
+
+ROTATION = r"measurement 0 .*a rotation and a position, above"
+WRONG = {  # what becomes of joints and poses, and what is said
+    "none": (lambda q, p: (q[:0], p[:0]), r"observations measured \(0\); expected: one or more"),
+    "far joints": (lambda q, p: (spoilt(q, 14), p), r"angles of measurement 7 .*up to 12.6 \(rad"),
+    "no joint": (lambda q, p: (spoilt(q, np.nan), p), r"joint angles of measurement 7 .*12\.6 \(r"),
+    "a joint less": (lambda q, p: (q[:, :5], p), r"'joints' .*; expected: \(30, 6\)"),
+    "half a pose": (lambda q, p: (q, p[:, :2]), r"\(30, 2, 4\); expected: \(30, 3\) or \(30, 4, 4"),
+    "no pose": (lambda q, p: (q, spoilt(p, np.nan)), r"measurement 7 .*10 \(m in the base frame\)"),
+    "mm": (lambda q, p: (q, 1e3 * p[:, :3, 3]), r"measurement 0 .*10 \(m in the base frame\)"),
+    "transposed": (lambda q, p: (q, p.swapaxes(1, 2)), ROTATION),
+    "mirrored": (lambda q, p: (q, p @ np.diag([-1, 1, 1, 1])), ROTATION),
+    "scaled": (lambda q, p: (q, p @ np.diag([1.02] * 3 + [1])), ROTATION),
+}
+
+
+@pytest.mark.parametrize(("spoil", "said"), WRONG.values(), ids=WRONG)
 def test_rows_that_are_no_observations(spoil, said, good, model):
-    with pytest.raises(RecalibError, match=said):
-        identify(model, spoil(good))
+    with pytest.raises(BadMeasurement, match=said):
+        identify(model, Observations(*spoil(good.joints, good.measured)))
 
 
 @pytest.mark.parametrize(

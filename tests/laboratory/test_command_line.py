@@ -208,7 +208,7 @@ def test_a_command_leaves_linear_algebra_to_one_thread_before_numpy_counts_cores
     assert os.environ["OPENBLAS_NUM_THREADS"] == "1"
 
 
-@pytest.mark.parametrize("angle", [-1.2, 0.0])
+@pytest.mark.parametrize("angle", [-1.2, 0.0, 0.35])
 def test_a_parked_joint_is_held_at_any_angle_and_named(angle, tmp_path, capsys):
     arm, random = load_arm("ur10_robot.urdf", "tool0"), np.random.default_rng(3)
     joints = np.array([0, -1.4, 2.1, -2.9, -1.6, 0]) + random.uniform(-0.5, 0.5, (40, 6))

@@ -120,7 +120,7 @@ DAMAGES = (
 
 
 @pytest.fixture(scope="module")
-def controller() -> Controller:
+def redundant() -> Controller:
     return Controller(panda())
 
 
@@ -141,9 +141,9 @@ def left(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
         (lambda controller: GeometricLearner(controller, runs=2), 12, 1e-6),
     ],
 )
-def test_a_learner_recalibrates_seven_joints(make, iterations, most, controller):
-    plant = Plant(controller, apply(controller.robot, DAMAGES))
-    assert np.all(left(make(controller), plant, iterations) < most)
+def test_a_learner_recalibrates_seven_joints(make, iterations, most, redundant):
+    plant = Plant(redundant, apply(redundant.robot, DAMAGES))
+    assert np.all(left(make(redundant), plant, iterations) < most)
 
 
 def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_path):

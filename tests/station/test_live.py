@@ -431,8 +431,10 @@ def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs):
     assert station.closed is not None and (station.closed == station.opened) is not hangs
 
 
-LINE = "live tests.station.simulated:{} ur10_robot.urdf --tool tool0 --most 14"
+LINE = "live {} ur10_robot.urdf --tool tool0 --most 14"
 LINE += " --floor none --no-self-collision"  # which is tested where it is
+
+SIMULATED = "tests.station.simulated:Simulated"
 
 
 def typed(monkeypatch, *lines):
@@ -447,7 +449,7 @@ def test_a_skipped_posture_is_not_proposed_again_and_an_end_is_no_error(
     proposed = []
     for lines in (("", "s", "q"), ("s", "q"), ("q",)):
         typed(monkeypatch, *lines)
-        assert main(LINE.format("Simulated").split()) == DONE
+        assert main(LINE.format(SIMULATED).split()) == DONE
         told = capsys.readouterr()
         proposed.append(re.findall(r"^tool from .* to (\(.*\)) mm", told.err, re.MULTILINE))
         assert len(proposed[-1]) == len(lines) and "ended: you ended it" in told.err
@@ -457,7 +459,7 @@ def test_a_skipped_posture_is_not_proposed_again_and_an_end_is_no_error(
     (_, skipped, second), (third, fourth), (fifth,) = proposed
     assert second == third and fourth == fifth and len({skipped, second, fourth}) == 3
     (tmp_path / "measurements.csv").unlink()
-    assert main(LINE.format("Simulated").split()) == REFUSED
+    assert main(LINE.format(SIMULATED).split()) == REFUSED
     assert "measurements_skipped.csv: it has postures that were" in capsys.readouterr().err
 
 
@@ -470,12 +472,12 @@ def test_who_ends_or_suspends_it_stops_the_arm_first(number, tmp_path, monkeypat
     monkeypatch.setattr("sys.stdin.readline", lambda: os.kill(os.getpid(), sent), raising=False)
     stopped = []
     monkeypatch.setattr(Simulated, "stop", lambda station: stopped.append(station))
-    assert main(LINE.format("Simulated").split()) == REFUSED
+    assert main(LINE.format(SIMULATED).split()) == REFUSED
     assert "recalib: interrupted; the station was told to stop" in capsys.readouterr().err
     assert len(stopped) == 1 and signal.getsignal(sent) == before
 
 
 def test_without_a_station_nothing_is_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    assert main(LINE.format("Unheard").split()) == REFUSED
+    assert main(LINE.format("tests.station.simulated:Unheard").split()) == REFUSED
     assert "rows are in" not in capsys.readouterr().err and not list(tmp_path.iterdir())

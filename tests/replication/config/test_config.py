@@ -1,7 +1,6 @@
 """A mistake in the configuration is told in a sentence, with its place, before any work starts."""
 
 import re
-import time
 
 import pytest
 import yaml
@@ -131,10 +130,7 @@ def test_several_mistakes_are_told_in_the_order_of_their_places(here):
     assert keys == ["sede", "controller.greatest_condition", "search.trials"]
 
 
-def test_the_shipped_configuration_passes_in_no_time():
-    started = time.perf_counter()
-    study = read_study(SHIPPED)
-    assert time.perf_counter() - started < 0.5
+def test_the_shipped_robots_can_do_what_is_asked_of_them(study):
     assert check_robots(study) == []
 
 
