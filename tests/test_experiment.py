@@ -30,12 +30,9 @@ def history(controller, damaged, poses):
     return train(Plant(controller, damaged), improved(3), *poses, range(0, 61, 4))
 
 
-def test_learning_reduces_both_errors_of_every_run(history):
+def test_learning_reduces_both_errors_of_every_run_by_two_moves_an_iteration(history):
     for errors in (history.position, history.orientation):
         assert (errors[:, -1] < 0.3 * errors[:, 0]).all()
-
-
-def test_two_moves_an_iteration_are_counted(history):
     assert np.array_equal(history.moves, 2 * history.iterations)
     assert not history.refused.any()
 
@@ -141,14 +138,11 @@ def external() -> ExternalRobot:
     return ExternalRobot(WORKSPACE, lambda pose: PUSHED @ pose if pose[0, 3] < 0.1 else None)
 
 
-def test_commands_and_measured_poses_are_coordinates_of_the_workspace(external):
+def test_an_own_robot_measures_coordinates_and_stays_at_home_if_it_refuses(external):
     commands = np.random.default_rng(1).uniform(-1, 0, (2, 3, 6))
     achieved, executed = external.execute(commands)
     assert np.allclose(achieved - commands, [0.05, 0, -0.1, 0, 0, 0])
     assert executed.all()
-
-
-def test_refused_moves_are_counted_and_leave_the_robot_at_home(external):
     commands = np.zeros((2, 3, 6))
     commands[1, :2, 0] = 0.9
     achieved, executed = external.execute(commands)

@@ -22,9 +22,12 @@ from recalib.nominal import link_end
 ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))
 
 
-def test_no_damage_is_the_nominal_arm(robot):
-    intact = apply(robot, []).forward(ANGLES)
-    np.testing.assert_allclose(intact, robot.arm.forward(ANGLES), rtol=0, atol=1e-12)
+def test_no_damage_is_the_nominal_arm_which_stays_whole(robot):
+    before = robot.arm.forward(ANGLES)
+    np.testing.assert_allclose(apply(robot, []).forward(ANGLES), before, rtol=0, atol=1e-12)
+    links = [LinkShortening(link, 0.01) for link in ("forearm_link", "wrist_3_link")]
+    apply(robot, [*links, BaseShift((1, 1, 1), (1, 1, 1))])
+    assert np.array_equal(robot.arm.forward(ANGLES), before)
 
 
 def test_the_whole_robot_moved_moves_every_pose(robot):
@@ -33,9 +36,6 @@ def test_the_whole_robot_moved_moves_every_pose(robot):
     shift[:3, 3] = 0.01, -0.02, 0.03
     damaged = apply(robot, [BaseShift(translate=(0.01, -0.02, 0.03), rotate=(0.1, -0.2, 0.3))])
     assert np.allclose(damaged.forward(ANGLES), shift @ robot.arm.forward(ANGLES))
-
-
-def test_base_shifts_follow_each_other(robot):
     damages = [BaseShift(rotate=(0, 0, np.pi / 2)), BaseShift(translate=(1, 0, 0))]
     moved = apply(robot, damages).forward(ANGLES)[:, :3, 3]
     turned = apply(robot, damages[:1]).forward(ANGLES)[:, :3, 3]
@@ -85,19 +85,6 @@ def test_an_encoder_shift_is_an_offset_of_its_joint(robot):
     assert np.allclose(damaged.forward(ANGLES), robot.arm.forward(ANGLES + 0.08 * np.eye(6)[2]))
 
 
-def test_the_nominal_robot_stays_whole(robot):
-    before = robot.arm.forward(ANGLES)
-    apply(
-        robot,
-        [
-            LinkShortening("forearm_link", 0.04),
-            LinkShortening("wrist_3_link", 0.01),
-            BaseShift((1, 1, 1), (1, 1, 1)),
-        ],
-    )
-    assert np.array_equal(robot.arm.forward(ANGLES), before)
-
-
 @pytest.mark.parametrize("damage", [LinkShortening("forearm", 0.01), EncoderShift("elbow", 0.01)])
 def test_unknown_names_are_refused_with_the_known_ones(robot, damage):
     with pytest.raises(UnknownName, match="forearm_link|elbow_joint"):
@@ -125,14 +112,11 @@ def test_no_two_kinds_have_the_same_words():
 
 
 @pytest.mark.parametrize("amount", [np.nan, np.inf, -np.inf, 3.2, -3.2])
-def test_angles_beyond_half_a_turn_are_refused(amount):
+def test_amounts_beyond_the_bounds_of_their_kind_are_refused(amount):
     with pytest.raises(InvalidSetting, match=r"EncoderShift\.shift is .*: an angle from"):
         EncoderShift("elbow_joint", amount)
     with pytest.raises(InvalidSetting, match=r"BaseShift\.rotate is .* -180 to 180 deg, in rad$"):
         BaseShift(rotate=(0.0, 0.0, amount))
-
-
-def test_amounts_of_each_kind_have_bounds_of_their_own():
     with pytest.raises(InvalidSetting, match=r"shorten is -0\.01; .* from 0 to 100 m, in m"):
         LinkShortening("forearm_link", -0.01)
     with pytest.raises(InvalidSetting, match=r"gap is 3\.2; expected: an angle from 0 to 180 deg"):

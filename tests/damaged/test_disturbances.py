@@ -29,16 +29,12 @@ def commands() -> np.ndarray:
     return np.random.default_rng(2).uniform(-1, 1, (2, 40, 6))
 
 
-def test_noise_has_the_size_that_was_asked_for():
+def test_noise_and_outliers_are_as_large_and_as_many_as_asked_for():
     poses = np.tile(np.eye(4), (1, 4000, 1, 1))
     measured = Disturbances(Noise(2e-4, 3e-4)).measure(generators(3), poses)
     assert np.std(measured[..., :3, 3]) == pytest.approx(2e-4, rel=0.05)
     angles = orientation_error(measured, poses)
     assert np.sqrt(np.mean(angles**2) / 3) == pytest.approx(3e-4, rel=0.05)
-
-
-def test_outliers_are_as_many_and_as_far_as_asked_for():
-    poses = np.tile(np.eye(4), (1, 4000, 1, 1))
     measured = Disturbances(outliers=Outliers(0.1, 0.05)).measure(generators(4), poses)
     misses = np.linalg.norm(measured[..., :3, 3], axis=-1)
     assert np.mean(misses > 0) == pytest.approx(0.1, rel=0.2)

@@ -41,20 +41,15 @@ def test_what_goes_along_an_axis_no_posture_tells_however_links_are_bent(load, t
     assert len(open_ones) == (turns + slides) * 7 + 6 - (4 * turns + 2 * slides + 6)
 
 
-def test_the_offset_of_the_last_joint_is_a_turn_of_the_target(panda):
-    (last,) = [one for one in found(panda) if one.parameter == OFFSET + 6]
+def test_offsets_of_the_first_and_last_joint_are_moves_of_what_stands_beside_them(panda):
+    open_ones = found(panda)
+    (last,) = [one for one in open_ones if one.parameter == OFFSET + 6]
     assert last == Unidentifiable(OFFSET + 6, (TARGET + 5,), True)
-
-
-def test_the_offset_of_the_first_joint_is_a_move_of_the_instrument(panda):
-    (first,) = [one for one in found(panda) if one.parameter == OFFSET]
+    (first,) = [one for one in open_ones if one.parameter == OFFSET]
     assert set(first.partners) <= {*BASE}
-
-
-def test_a_joint_that_never_moved_leaves_open_what_moving_it_would_tell(panda):
     by_data = [one for one in found(panda, hold=3) if not one.lasting]
     assert len(by_data) >= 2
-    assert not [one for one in found(panda) if not one.lasting]
+    assert not [one for one in open_ones if not one.lasting], "unless a joint never moved"
 
 
 def test_what_a_ball_in_sockets_leaves_open_no_other_postures_in_them_tell(panda):

@@ -101,9 +101,6 @@ def test_a_parameter_is_known_by_its_name_with_its_standard_error(calibration):
     assert (elbow.unit, base.unit) == ("deg", "mm")
     assert (elbow.value, base.value) == pytest.approx((3, 4))
     assert (elbow.deviation, base.deviation) == pytest.approx((np.degrees(1e-4), 0.1))
-
-
-def test_what_is_held_at_nominal_is_no_parameter(calibration):
     held = calibration.model.deviations.copy()
     held[calibration.model.offset_columns] = 0.0
     calibration.model.deviations = held

@@ -32,7 +32,7 @@ from tests.laboratory.conftest import (
 )
 
 
-def test_a_calibration_is_a_folder_of_files(calibrated):
+def test_a_calibration_is_a_folder_of_files_that_tell_one_story(calibrated):
     files = {path.name for path in calibrated.iterdir()}
     expected = {"summary.txt", "arm.urdf", "correction.npz", "parameters.json", "frames.csv"}
     assert files == expected | {"rows.csv", "page.html", "recording.rrd"}
@@ -47,20 +47,12 @@ def test_a_calibration_is_a_folder_of_files(calibrated):
     assert f" to {errors['in blocks']:.3g} mm, 95 % within " in verdict
     assert verdict.endswith(f"; near them, to {errors['at random']:.3g} mm.")
     assert next(line for line in others if line.startswith("in blocks"))
-
-
-def test_data_decide_no_more_parameters_than_they_can_tell_apart(calibrated):
-    """Four for each joint and six at the ends, without how the target is turned."""
-    values = json.loads((calibrated / "parameters.json").read_text())
+    # data decide four for each joint and six at the ends, without how the target is turned
     decided = [row["name"] for row in values["parameters"] if row["decided_by"] == "data"]
     assert 9 < len(decided) <= 4 * 3 + 3
-    assert f"{len(decided)} of the {len(values['parameters'])} parameters" in (
-        calibrated / "page.html"
-    ).read_text().replace("\n", " ")
-
-
-def test_the_page_asks_for_nothing_from_elsewhere(calibrated):
     page = (calibrated / "page.html").read_text()
+    told = page.replace("\n", " ")
+    assert f"{len(decided)} of the {len(values['parameters'])} parameters" in told
     assert page.count("<svg") == 3
     assert "<script" not in page and "<link" not in page and 'src="http' not in page
 

@@ -78,7 +78,7 @@ def test_postures_from_which_the_arm_approaches_are_in_the_frame_given(correctio
     assert np.abs(calibration.forward(commands.joints) - goals).max() < 1e-7
 
 
-def test_one_pose_will_do(correction):
+def test_one_pose_will_do_and_is_reached_from_what_was_learned(correction):
     goal = correction.arm.forward(HOME[None])[0]
     commands = correction.correct(goal, HOME, frame="base")
     reached = correction.calibration.forward(commands.joints)
@@ -86,9 +86,6 @@ def test_one_pose_will_do(correction):
     assert not np.allclose(commands.joints, HOME, atol=1e-3)
     in_loop = correction.command(goal, HOME, frame="base")
     assert np.array_equal(in_loop, commands.joints[0])
-
-
-def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     goals = correction.calibration.forward(correction.learned[:5] + 0.02)
     commands = correction.correct(goals, frame="base")
     reached = correction.calibration.forward(commands.joints)

@@ -195,9 +195,6 @@ def two_sessions(arm, folder, rows: int, moved: list[float]) -> Calibrated:
 def test_two_sessions_are_told_of_beside_the_error(arm, folder):
     _, first, *_ = summary(two_sessions(arm, folder, 20, [6e-4, -6e-4, 5e-4])).splitlines()
     assert "Careful: between rows 20 and 21 instrument or base seem to have moved by" in first
-
-
-def test_two_sessions_that_no_arm_explains_are_refused_as_such(arm, folder):
     with pytest.raises(
         Untrustworthy, match="between rows 30 and 31 instrument or base seem to have moved by 50 mm"
     ):
@@ -218,9 +215,7 @@ def test_the_first_line_and_the_table_say_how_many_rows_are_left_out(with_outlie
     (row,) = [line for line in lines if line.startswith("left out")]
     largest = errors_table(with_outliers)[-1].largest
     assert "4 rows" in row and f"{largest:.3f}" in row and largest > 10
-
-
-def test_95_percent_is_one_number_wherever_it_is_said(with_outliers):
+    # 95 percent is one number wherever it is said
     text, validation = summary(with_outliers), with_outliers.validation
     (used,) = [
         row

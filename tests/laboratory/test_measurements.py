@@ -68,15 +68,12 @@ def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
         )
 
 
-def test_targets_and_sockets_are_named(gantry, write):
+def test_targets_and_sockets_are_named_also_in_what_is_desired(gantry, write):
     names = ["left", "right"] * (ROWS // 2)
     read = read_measurements(write(joints() | {"socket": names, "target": names}), gantry)
     assert [*read.columns["sockets"]] == [
         *read.columns["targets"]
     ] == names and read.positions is None
-
-
-def test_a_measured_table_may_be_desired_in_the_frame_in_which_it_was_measured(gantry, write):
     names = {"target": ["board"] * ROWS, "picture": ["a.png"] * ROWS}
     read = read_desired(write(joints() | positions() | names), gantry, target=True)
     assert [*read.columns["targets"]] == names["target"] and np.allclose(read.positions[-1], 0.002)

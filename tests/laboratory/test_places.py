@@ -100,14 +100,6 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     base = np.linalg.inv(told["base_in_instrument"])
     assert np.allclose(instrument, 1e3 * base[:3, 3], atol=0.01)
     assert np.allclose(left, 1e3 * np.array(told["targets_in_tool"]["left"])[:3, 3], atol=0.01)
-
-
-def read_places(folder: Path) -> list[dict[str, str]]:
-    with (folder / "frames.csv").open(newline="") as stream:
-        return list(csv.DictReader(stream))
-
-
-def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibrated):
     instrument, left, _ = read_places(calibrated[1])
     assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
     assert (
@@ -116,6 +108,11 @@ def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibr
         < 1
         < float(left["deviation relative to the real link [mm]"])
     )
+
+
+def read_places(folder: Path) -> list[dict[str, str]]:
+    with (folder / "frames.csv").open(newline="") as stream:
+        return list(csv.DictReader(stream))
 
 
 @few_folds()

@@ -56,13 +56,10 @@ def test_a_scara_moves_as_its_closed_form_says(load):
     assert np.allclose(pose[:2, 0], [np.cos(both + wrist), np.sin(both + wrist)])
 
 
-def test_one_link_with_a_mass_is_enough_for_gravity(load):
+def test_one_link_with_a_mass_is_enough_for_gravity_and_limits_may_hold_a_joint(load):
     light = load(SCARA)
     assert light.massless
     assert not load(SCARA.replace('mass value="0.0"', 'mass value="2"', 1)).massless
-
-
-def test_a_joint_may_be_held_by_its_limits(load):
     arm = load(SCARA.replace('lower="-2"', 'lower="2"', 1))
     assert arm.model.lowerPositionLimit[0] == arm.model.upperPositionLimit[0] == 2
 
