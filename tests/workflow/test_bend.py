@@ -35,9 +35,6 @@ def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
     assert (mine.name, mine.robot, mine.scenario) == ("my_arm", "ur5", "fall")
     assert mine.expected is None, "bands belong to the study that has them"
     assert [*places(mine)] == [Place("ur5", "fall")]
-
-
-def test_the_page_names_every_study_to_begin_with():
     row = next(line for line in PAGE.splitlines() if line.startswith("| `like` |"))
     studies = {path.stem for path in (ROOT / "workflow" / "studies").glob("*.yaml")}
     assert len(studies) > 4 and studies <= {*re.findall(r"\w+", row)}

@@ -145,6 +145,9 @@ def test_a_redundant_arm_is_asked_for_no_evidence():
 def test_a_study_survives_the_round_trip():
     study = read_study(SHIPPED)
     assert Study.model_validate_json(study.model_dump_json()) == study
+    assert (ROOT / schema.FILE).read_text(encoding="utf-8") == schema.text(), (
+        "python -m replication.config writes it anew"
+    )
 
 
 def test_overlays_change_keys_and_replace_all_else(here):
@@ -177,12 +180,6 @@ def test_a_mistake_in_an_overlay_names_the_overlay(here):
 def test_a_mistake_in_a_file_that_an_overlay_mends_is_none(here):
     (here / "config.yaml").write_text(TEXT.replace("seed: 1996", "seed: many", 1))
     assert read_study("config.yaml", {"seed": 2}).seed == 2
-
-
-def test_the_editors_schema_is_that_of_the_types():
-    assert (ROOT / schema.FILE).read_text(encoding="utf-8") == schema.text(), (
-        "python -m replication.config writes it anew"
-    )
 
 
 def test_every_key_is_described():

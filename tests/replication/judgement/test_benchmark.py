@@ -55,9 +55,6 @@ def test_moves_to_a_threshold_are_a_median_between_the_5th_and_the_95th_percenti
     assert np.isinf(by.loc[("sag", "hybrid", ERRORS[0], 0.1), "moves"])
     assert np.isinf(by.loc[("noise", "improved", ERRORS[0], 1.0), "low"])
     assert by.loc[("noise", "improved", ERRORS[0], 1.0), "needs"].endswith("two moves for each")
-
-
-def test_computing_times_have_a_table_of_their_own(tables):
     assert tables[2].to_numpy().tolist() == [["improved", 8], ["hybrid", 6]]
 
 
@@ -69,10 +66,6 @@ def test_the_first_measurement_within_a_threshold_counts_for_each_seed():
         for moves, error in zip((2, 4, 8), each, strict=True)
     ]
     assert moves_to_reach(pd.DataFrame(table), (ERRORS[0],), 1).tolist() == [np.inf, 2, 4]
-
-
-def test_both_errors_have_to_be_within_a_threshold_at_once():
-    """The medians of each error by itself would hide a seed that is slow in the other."""
     rows = [(0, 1, 0.5, 2), (0, 2, 2, 0.5), (0, 3, 0.5, 0.5), (1, 1, 0.5, 0.5), (1, 2, 2, 2)]
     history = pd.DataFrame(rows, columns=["seed", "moves", *ERRORS])
     assert moves_to_reach(history, ERRORS[:1], 1.0).tolist() == [1, 1]

@@ -92,10 +92,14 @@ OF_SETUPS += " jacobian-increments cooperation schedule figure-1 long rough-sear
 OTHERS = "weak-coupling", "initial-error", "speed-up"  # by tables of the campaign, too
 
 
-def test_every_claim_of_setups_is_tried(study):
+def test_every_claim_says_all_of_itself_and_those_of_setups_are_tried(study):
     assert {its.statement.id for its in claims(study) if isinstance(its, OfSetups)} == {
         *OF_SETUPS.split()
     }
+    every = [its.statement for its in claims(study)]
+    assert len({its.id for its in every}) == len(every)
+    for its in every:
+        assert its.words and its.claim and its.criterion and its.reason and its.section
 
 
 @pytest.mark.parametrize("name", [*OF_SETUPS.split(), *OTHERS])
@@ -119,19 +123,9 @@ def test_a_finding_has_mean_another_setup_heterogeneity_and_luck(judged):
     assert spread.between_interval[0] < np.sqrt(2) * OWN < spread.between_interval[1]
     assert spread.shares[Verdict.SUPPORTED] > 0.99
     assert its.estimates[1].system == "Ritter's one map", "beside, another system"
-
-
-def test_the_factor_of_70_is_found_with_bounds_where_a_ladder_ends(judged):
     its = judged[True]["speed-up"]
     assert its.estimates[0].value == pytest.approx(70, rel=0.1)
     assert its.published == "a factor of 70"
-
-
-def test_every_claim_says_all_of_itself(study):
-    every = [its.statement for its in claims(study)]
-    assert len({its.id for its in every}) == len(every)
-    for its in every:
-        assert its.words and its.claim and its.criterion and its.reason and its.section
 
 
 def test_without_results_nothing_is_judged(study, tmp_path):

@@ -40,13 +40,10 @@ def test_the_larger_share_counts_unless_one_error_is_asked_for():
     assert numbers(position)[0] == pytest.approx([0.1, 0.2])
 
 
-def test_a_contrast_is_a_ratio_in_the_same_setup_and_replicate():
+def test_a_contrast_is_a_ratio_in_the_same_setup_and_replicate_a_difference_one_of_ratios():
     found = Contrast(ONE, TWO).values(TABLE)
     assert numbers(found) == pytest.approx(np.array([[0.5, 2], [2.5, np.nan]]), nan_ok=True)
     assert not found.bounds.to_numpy().any()
-
-
-def test_a_difference_is_a_ratio_of_ratios():
     double = Contrast(ONE, TWO)
     nothing = Difference(double, double).values(TABLE)
     assert numbers(nothing) == pytest.approx(np.array([[1, 1], [1, np.nan]]), nan_ok=True)

@@ -23,11 +23,8 @@ def evidence(study, tmp_path):
     return Evidence(study, tmp_path)
 
 
-def test_a_history_is_that_of_one_length(evidence):
+def test_a_history_is_that_of_one_length_and_errors_its_first_or_last_ones_by_seed(evidence):
     assert set(evidence.history("improved", 500)["iteration"]) == {0, 500}
-
-
-def test_errors_are_the_first_or_last_ones_by_seed(evidence):
     assert evidence.errors("improved", 200).tolist() == [[200, 200], [300, 200]]
     assert evidence.errors("improved", 200, first=True).tolist() == [[0, 200], [100, 200]]
 

@@ -17,6 +17,7 @@ def test_a_number_has_three_digits(value, text):
 def test_a_share_is_in_percent():
     assert formats.percent(0.0694) == "6.9 %"
     assert formats.interval((0.06, 0.079), formats.percent) == "6 to 7.9 %"
+    assert formats.ratio(0.1) == "11 %"  # exp(0.1) is 1.105
 
 
 @pytest.mark.parametrize(
@@ -31,10 +32,6 @@ def test_a_share_is_in_percent():
 def test_an_estimate_has_its_interval(interval, bound, text):
     number = Number(name="a", system="b", value=0.12, interval=interval, bound=bound)
     assert formats.estimate(number) == text
-
-
-def test_a_deviation_of_logarithms_is_a_percentage_of_the_number():
-    assert formats.ratio(0.1) == "11 %"  # exp(0.1) is 1.105
 
 
 TEXT = """

@@ -80,9 +80,6 @@ def test_each_claim_has_a_row_and_its_reasons(complete):
         for heading in re.findall(r"^### (.+)$", page, re.MULTILINE)
     }
     assert {re.search(r"\(#(.+)\)", cells[0])[1] for cells in table} == anchors
-
-
-def test_the_reasons_of_a_claim_have_at_most_120_words(complete):
     _, *reasons = re.split(r"^> .*$", render("findings.md", complete), flags=re.MULTILINE)
     reasons = [text.partition("\n### ")[0] for text in reasons]
     assert len(reasons) == len(complete.claims)
@@ -217,13 +214,10 @@ def contents(study, project) -> Contents:
     return Contents(study, (), folder)
 
 
-def test_moves_have_their_quantiles_if_these_differ(contents):
+def test_guidance_has_quantiles_of_moves_and_compares_the_hybrid_with_other_learners(contents):
     page = render("guidance.md", contents)
     assert "| scenario | geometric | hybrid | improved |" in page
     assert "| links encoders | 3 (2 to 6) | 3 | - |" in page
-
-
-def test_the_hybrid_is_compared_with_other_learners_of_today(contents):
     page = render("guidance.md", contents)
     assert (
         "other learner's in 1 comparisons, at most by a\nfactor of 1.2: in the scenario links"

@@ -15,15 +15,7 @@ from tests.conftest import changed
 from tests.replication.recording.conftest import reader
 
 
-def test_it_keeps_its_scenario_and_what_made_it(columns, resolved):
-    def kept(key):
-        return columns("/__properties/run", key)[1][0][0]
-
-    assert Resolved.model_validate_json(kept("scenario")) == resolved
-    assert kept("numpy") == np.__version__
-
-
-def test_it_explains_the_arm_its_damage_and_what_came_of_it(columns):
+def test_it_explains_the_arm_its_damage_and_what_came_of_it(columns, resolved):
     text = columns("/about", "TextDocument:text")[1][0][0]
     times, captions = columns("/improved/target/caption", "Points3D:labels")
     first, last = captions[0][0], captions[-1][0]
@@ -43,6 +35,12 @@ def test_it_explains_the_arm_its_damage_and_what_came_of_it(columns):
     assert legend == ["desired pose", "pose reached", "measurement", "damage", "assumed arm"]
     beside = columns("/beside", "TextDocument:text")[1][0][0]
     assert "**geometric** (an identified model) learns for 5 iterations (5 moves)" in beside
+
+    def kept(key):
+        return columns("/__properties/run", key)[1][0][0]
+
+    assert Resolved.model_validate_json(kept("scenario")) == resolved
+    assert kept("numpy") == np.__version__
 
 
 def test_of_an_undamaged_arm_it_speaks_of_no_damage_and_no_misses(files):

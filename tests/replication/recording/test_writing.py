@@ -26,6 +26,9 @@ def test_every_recording_is_valid_and_small(files):
         check_end(path)
         assert rrd("verify", path)
         assert path.stat().st_size < 20e6
+    own, intact = map(entities, files.recordings)
+    assert "/geometric/tool" in own
+    assert not any("geometric" in entity for entity in intact)
 
 
 @pytest.mark.parametrize("share", [0, 0.5, 0.99])
@@ -85,12 +88,6 @@ def test_a_published_error_is_a_level_line_beside_the_measured_one(resolved, tmp
     assert {value for (value,) in values} == {8.3}
     with pytest.raises(KeyError):
         columns("/errors/orientation_error_deg/paper", "Scalars:scalars")
-
-
-def test_one_of_todays_learners_is_recorded_in_the_own_scenario_alone(files):
-    own, intact = map(entities, files.recordings)
-    assert "/geometric/tool" in own
-    assert not any("geometric" in entity for entity in intact)
 
 
 def entities(recording) -> set[str]:

@@ -97,9 +97,6 @@ def test_the_paper_allows_5760_different_assignments(robot):
     ways = Ways(LINKS, [0.01, 0.01, 0.04], robot.joints, np.radians([4, 3, 4]))
     assert (len(ways.short), len(ways.shifted), len(ways)) == (12, 480, 5760)
     assert len({ways[index] for index in range(len(ways))}) == 5760
-
-
-def test_an_assignment_lists_its_damages_from_the_base_to_the_tool(robot):
     ways = Ways(LINKS, [0.01, 0.04], robot.joints, [0.05, 0.06])
     for index in range(0, len(ways), 37):
         links, joints = ways[index][:2], ways[index][2:]
@@ -129,9 +126,6 @@ def test_every_row_has_the_errors_of_its_damages(assigned, controller):
         orientation = np.degrees(orientation_error(achieved, desired).mean())
         assert table["position_error_cm"][index] == pytest.approx(position)
         assert table["orientation_error_deg"][index] == pytest.approx(orientation)
-
-
-def test_the_nearest_assignment_is_used(assigned, controller):
     damage, table, assignment = assigned
     ways = Ways(LINKS, damage.shorten, controller.robot.joints, damage.shift)
     assert assignment == ways[table["distance"].round(9).argmin()]

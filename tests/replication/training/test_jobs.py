@@ -58,15 +58,12 @@ def table(study, tmp_path_factory):
     return trained(study, tmp_path_factory.mktemp("settings"), draws=6, scales=(1.0, 3.0))
 
 
-def test_each_robot_has_all_scales_of_its_damage(table):
+def test_each_robot_has_all_scales_of_its_damage_and_learning_helps(table):
     assert table[["draw", "scale"]].to_numpy().tolist() == [
         [draw, scale] for draw in range(6) for scale in (1, 3)
     ]
     error = table["initial_position_error_cm"].to_numpy().reshape(-1, 2)
     assert (error[:, 1] > 2 * error[:, 0]).all()
-
-
-def test_learning_helps_each_of_them(table):
     for error in ("position_error_cm", "orientation_error_deg"):
         assert (table[f"final_{error}"] < table[f"initial_{error}"]).all()
 

@@ -53,16 +53,13 @@ def test_a_row_and_its_point_are_the_same(space):
     assert np.allclose(rows, again, rtol=2e-3)  # four digits of each
 
 
-def test_a_neighbourhood_that_is_to_be_narrower_is(study):
+def test_a_neighbourhood_that_is_to_be_narrower_is_and_a_given_width_does_not_fall(study):
     rules = Rules(True, False, False, False)
     narrower = {"position_g_k": "position_g_kl"}
     space = Space(rules, study.search.ranges, narrower=narrower)
     its = columns(space, space.rows(points(100)))
     assert (its["position_g_k"] <= its["position_g_kl"] * 1.001).all()
     assert (its["orientation_g_k"] > its["orientation_g_kl"]).any()
-
-
-def test_a_given_width_is_not_sought_and_does_not_fall(study):
     rules = Rules(True, False, False, False)
     space = Space(rules, study.search.ranges, constant={"position_g_k": 2.0})
     assert "position_g_k" not in space.coordinates and len(space.coordinates) == 6
@@ -80,9 +77,6 @@ def test_a_learner_has_the_settings_of_the_reference_study_alone(study, settings
     assert np.isfinite(learner.schedule.initial_width).all()
     others = Tuned(study, settings).learner("improved", 500, 3)
     assert others.schedule.initial_width[0] != learner.schedule.initial_width[0]
-
-
-def test_without_settings_one_is_told_how_to_get_them(study, settings):
     with pytest.raises(RecalibError, match="no settings of improved for 201 iterations; try: make"):
         Tuned(study, settings).learner("improved", 201, 1)
 
@@ -152,6 +146,14 @@ def test_searches_that_find_the_same_have_converged(tuning):
     assert its["initial_rate"] == pytest.approx(0.8, rel=0.15)
     for name in tuning.fresh.space.neighbourhoods:
         assert its[name] == pytest.approx(0.5, rel=0.3)
+    starts = found.rows * 1.1
+    found = tuning.search(starts=np.minimum(starts, [20] * 5 + [1] * 2))
+    assert found.settled and found.trials == 160 and found.scores.max() < 0.102
+    effort = RoughSearch(trials=16, ranges=Ranges(widths=(0.1, 5.0), rates=(0.1, 1.0)))
+    found = tuning.rough(effort)
+    assert found.trials == 16 and not found.settled
+    assert 0.1 < found.scores[0] < 1
+    assert (found.best[:5] >= 0.0999).all() and (found.best[:5] <= 5.001).all()
 
 
 def test_searches_that_do_not_begin_again_once_with_twice_as_many_trials(tuning):
@@ -161,20 +163,6 @@ def test_searches_that_do_not_begin_again_once_with_twice_as_many_trials(tuning)
     assert found.scores.max() > 1.02 * found.scores.min()
     assert found.scores.argmin() == 0, "the best is that which leaves least on fresh poses"
     assert (found.best == found.rows[0]).all()
-
-
-def test_near_a_start_few_trials_are_enough(tuning):
-    starts = tuning.search().rows * 1.1
-    found = tuning.search(starts=np.minimum(starts, [20] * 5 + [1] * 2))
-    assert found.settled and found.trials == 160 and found.scores.max() < 0.102
-
-
-def test_a_rough_search_takes_the_best_of_few_settings(tuning):
-    effort = RoughSearch(trials=16, ranges=Ranges(widths=(0.1, 5.0), rates=(0.1, 1.0)))
-    found = tuning.rough(effort)
-    assert found.trials == 16 and not found.settled
-    assert 0.1 < found.scores[0] < 1
-    assert (found.best[:5] >= 0.0999).all() and (found.best[:5] <= 5.001).all()
 
 
 def test_the_larger_remaining_share_counts():

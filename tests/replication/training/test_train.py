@@ -24,9 +24,6 @@ SPARSE = Measuring(tests=2, measure_every=4, measure_evenly=200, measurements=50
 def test_short_trainings_are_measured_evenly_and_at_their_end(iterations, every):
     grid = SPARSE.model_copy(update={"measure_every": every}).during(iterations)
     assert grid[0] == 0 and grid[-1] == iterations and set(np.diff(grid[:-1])) <= {every}
-
-
-def test_long_trainings_are_measured_on_a_logarithmic_grid():
     grid = SPARSE.during(10_000)
     assert grid[:3] == [0, 1, 2] and grid[-1] == 10_000 and 35 <= len(grid) <= 51
 
