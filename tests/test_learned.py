@@ -112,12 +112,9 @@ def test_another_robot_is_refused_with_what_differs(message, robot, tmp_path):
         load(tmp_path / "a.npz", OTHERS[message](robot))
 
 
-def test_another_name_is_no_other_robot(robot, tmp_path):
+def test_another_name_is_no_other_robot_but_a_newer_format_is_refused(robot, tmp_path):
     save(tmp_path / "a.npz", PolynomialLearner(1), robot)
     load(tmp_path / "a.npz", replace(robot, name="Marvin"))
-
-
-def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
     path = tmp_path / "a.npz"
     save(path, PolynomialLearner(1), robot)
     arrays = dict(np.load(path))
@@ -162,6 +159,8 @@ def test_what_cannot_be_loaded_is_not_saved(robot, tmp_path):
     with pytest.raises(UnknownName, match="UncorrectedLearner.*expected: gaussian_process"):
         save(tmp_path / "a.npz", UncorrectedLearner(), robot)
     assert not [*tmp_path.iterdir()]
+    with pytest.raises(UnknownName, match=r"'hybird'; expected: .*; did you mean hybrid\?"):
+        class_of("hybird")
 
 
 def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robot, tmp_path):
@@ -205,11 +204,6 @@ def test_a_learner_is_of_the_kind_of_its_own_class():
     assert kind_of(PolynomialLearner(1)) == "polynomial"
     with pytest.raises(UnknownName, match="unknown kind of learner to save 'Other'"):
         kind_of(Other(1))
-
-
-def test_an_unknown_kind_is_refused_with_the_known_ones():
-    with pytest.raises(UnknownName, match=r"'hybird'; expected: .*; did you mean hybrid\?"):
-        class_of("hybird")
 
 
 @pytest.mark.parametrize("name", KINDS)

@@ -81,9 +81,6 @@ def test_where_the_arm_stands_on_another_link_only_what_is_between_changes(tmp_p
         load_arm(path, "panda_link2") for path in ("panda.urdf", tmp_path / "corrected.urdf")
     )
     assert np.array_equal(below.forward(np.ones((1, 2))), nominal.forward(np.ones((1, 2))))
-
-
-def test_a_tool_that_hangs_on_a_joint_gets_a_link_of_its_own():
     arm = load_arm("z1.urdf", "link06")
     text, name = corrected_urdf(find_urdf("z1.urdf").read_bytes(), random_calibration(arm))
     assert name == "link06_corrected"
@@ -213,9 +210,6 @@ def test_it_moves_as_the_calibrated_arm_but_for_what_is_bent_behind_the_last_joi
     beside = [np.linalg.inv(flange(its, q)) @ pose for q, pose in zip(joints, own, strict=True)]
     assert np.ptp(beside, axis=0).max() < 1e-9
     assert np.abs(beside[0] - np.eye(4)).max() < 0.2  # what the tool's own twist does
-
-
-def test_parallel_axes_throw_no_frame_far_away():
     calibration = random_calibration(load_arm("ur10_robot.urdf", "tool0"))
     moved = origins(calibration)
     calibration.estimate.parameters[:] = 0

@@ -95,9 +95,6 @@ def test_a_start_of_whole_numbers_does_not_round_what_is_found(arms):
     np.testing.assert_allclose(chain.forward(found[None])[0], poses, rtol=0, atol=1e-9)
     assert start.dtype == int
     assert errors.max() < 1e-9
-
-
-def test_a_pose_or_a_start_that_is_no_number_is_not_reached(arms):
     _, chain = arms[0]
     start = np.array([[0.1, -1.2, 1.3, 0.4, 0.5, 0.6]] * 3)
     poses = chain.forward(start[None])[0]

@@ -127,10 +127,6 @@ def test_half_a_turn_is_not_taken_for_none():
     angles, left = in_groups(arm, goal, start)
     assert left <= TOLERANCE
     np.testing.assert_allclose(arm.forward(angles), goal, rtol=0, atol=1e-10)
-
-
-def test_half_a_turn_is_not_reached_without_a_move():
-    """By the loops, which measure it by its sine: the controller refuses it."""
     arm, start = standing("ur10_robot.urdf")
     goal = arm.forward(start + np.pi * np.eye(6)[[5]])
     _, left = by_chain(arm, goal, start)

@@ -64,6 +64,9 @@ def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
     )
     x, y, z = (Rotation.from_rotvec(0.35 * axis).as_matrix() for axis in np.eye(3))
     assert np.allclose(pose[2, :3, :3], CENTRE[:3, :3] @ z @ y @ x)
+    sample = WORKSPACE.sample(np.random.default_rng(0), 1000)
+    assert sample.shape == (1000, 6)
+    assert sample.min() >= -1 and sample.max() <= 1 and np.ptp(sample, axis=0).min() > 1.9
 
 
 def test_unknown_coordinates_are_refused_with_the_known_ones():
@@ -107,12 +110,6 @@ def test_errors_measure_a_known_displacement(offset, axis, angle):
     assert orientation_error(CENTRE[None], moved[None])[0] == pytest.approx(angle, abs=1e-9)
 
 
-def test_samples_fill_the_box():
-    sample = WORKSPACE.sample(np.random.default_rng(0), 1000)
-    assert sample.shape == (1000, 6)
-    assert sample.min() >= -1 and sample.max() <= 1 and np.ptp(sample, axis=0).min() > 1.9
-
-
 def test_an_error_is_a_distance_and_a_turn_or_a_mean_over_coordinates():
     desired = np.array([[0.1, -0.2, 0.3, 0.4, 0.5, 0.6]])
     off = np.array([[0.03, -0.04, 0.0, 0.02, -0.01, 0.06]])  # m and rad
@@ -124,9 +121,6 @@ def test_an_error_is_a_distance_and_a_turn_or_a_mean_over_coordinates():
     assert position == pytest.approx(0.07 / 3) and orientation == pytest.approx(0.09 / 3)
     with pytest.raises(UnknownName, match="error of a pose 'median'"):
         pose_errors(WORKSPACE, *poses, error="median")
-
-
-def test_errors_of_angles_are_taken_the_shorter_way_round():
     yaw = np.zeros((2, 6))
     yaw[:, 5] = np.array([-3.1, 3.1]) / HALF_RANGES[5]
     poses = [WORKSPACE.to_poses(u[None]) for u in yaw]

@@ -61,13 +61,10 @@ def test_the_home_of_a_joint_that_slides_is_a_length():
         load_robot("tiago.urdf", arm.tool, home, [0.01] * 3, [0.01] * 3)
 
 
-def test_a_workspace_without_size_is_refused(robot):
+def test_a_workspace_without_size_or_for_fewer_than_six_joints_is_refused(robot, tmp_path):
     home = dict(zip(robot.joints, robot.home, strict=True))
     with pytest.raises(InvalidSetting, match="above zero"):
         load_robot(robot.urdf, "tool0", home, [0, 0.6, 0.5], SIDES[1])
-
-
-def test_a_workspace_needs_six_joints(tmp_path):
     (path := tmp_path / "scara.urdf").write_text(SCARA)
     home = dict.fromkeys(("shoulder", "elbow", "quill", "wrist"), 0.1)
     with pytest.raises(

@@ -56,7 +56,7 @@ def remaining(station, rows, running) -> float:
     return float(np.linalg.norm(gaps[:, :3, 3], axis=1).mean())
 
 
-def test_it_ends_as_soon_as_the_arm_is_as_right_as_was_asked_for(lived):
+def test_it_says_where_the_tool_will_be_and_ends_as_soon_as_the_arm_is_right(lived):
     assert lived.ended.reason.endswith("; 0.3 mm was requested")
     assert lived.ended.rows == len(lived.rows) <= 14 and "stop" not in lived.station.calls
     assert remaining(lived.station, lived.rows, lived.running) < 3e-4
@@ -64,9 +64,6 @@ def test_it_ends_as_soon_as_the_arm_is_as_right_as_was_asked_for(lived):
     assert (
         lived.lines[-1] == f"row {len(lived.rows)}: the predicted error is {1e3 * predicted:.3g} mm"
     )
-
-
-def test_before_the_first_move_it_says_where_the_tool_will_be(lived):
     ranges = re.findall(r"([xyz]) from (-?\d+) to (-?\d+) mm", lived.lines[0])
     low, high = np.array([(float(a), float(b)) for _, a, b in ranges]).T
     places = 1e3 * np.array([move.tool_after for move in lived.asked])

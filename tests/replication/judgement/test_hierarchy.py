@@ -63,9 +63,6 @@ def test_luck_is_told_from_what_is_a_setups_own():
     assert found.another.high - found.another.low > 3 * (found.mean.high - found.mean.low)
     alike = model(table(own=0.0, luck=0.3))
     assert alike.heterogeneity.low == 0
-
-
-def test_shares_of_setups_are_those_of_a_normal_distribution():
     below, within, above = (
         model(table(own=0.4))
         ._replace(mean=hierarchy.Estimate(0, 0, 0), heterogeneity=hierarchy.Estimate(1, 1, 1))
@@ -104,9 +101,5 @@ def test_in_95_percent_no_factor_without_effect_is_named():
         random = np.random.default_rng(repetition)
         named += strongest(random.normal(size=SETUPS), levels(random)) is not None
     assert named <= 19, "of 200: the binomial's 99 %"
-
-
-def test_of_few_setups_nothing_is_named():
-    """While a campaign is being measured, a level may have one setup, or none."""
     design = pd.DataFrame({"a": ["x", "y", "z"], "b": ["x", "x", "x"]})
     assert strongest(np.array([0.0, 5.0, 9.0]), design) is None
