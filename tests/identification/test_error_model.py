@@ -48,9 +48,8 @@ def _turn(start: np.ndarray, end: np.ndarray) -> np.ndarray:
 def test_zero_parameters_are_the_nominal_arm(robot):
     angles = np.random.default_rng(3).uniform(-1, 1, (5, 6))
     model = ErrorModel(robot.arm, JOINT_WAVES)
-    assert np.allclose(
-        model.predict(np.zeros_like(model.deviations), angles), robot.arm.forward(angles)
-    )
+    found = model.predict(np.zeros_like(model.deviations), angles)
+    assert np.allclose(found, robot.arm.forward(angles))
 
 
 @pytest.mark.parametrize(

@@ -57,9 +57,8 @@ def test_what_a_ball_in_sockets_leaves_open_no_other_postures_in_them_tell(panda
     real, ball = Real(panda, 1), np.array([0.02, -0.01, 0.12])
     sockets = np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
     joints = np.concatenate([real.touching(ball, socket, 80) for socket in sockets])
-    observations = Observations(
-        joints, sockets=np.repeat([0, 1], 80), distances=[Distance(0, 1, 0.3)]
-    )
+    sockets = np.repeat([0, 1], 80)
+    observations = Observations(joints, sockets=sockets, distances=[Distance(0, 1, 0.3)])
     open_ones = unidentifiable_parameters(geometry_of(panda, observations), observations)
     assert open_ones and all(one.lasting for one in open_ones)
 

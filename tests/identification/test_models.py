@@ -52,9 +52,8 @@ def test_where_geometry_alone_is_wrong_geometry_alone_is_used(robot, controller,
 def test_where_more_is_wrong_the_model_that_says_it_is_used(robot, controller):
     angles = postures(controller, 24)
     bent = apply(robot, [Sag(joint, 1e-4) for joint in robot.joints])
-    found = calibrate(
-        robot.arm, (OFFSETS, JOINT_ERRORS), Observations(angles, noisy(bent, angles, 1))
-    )
+    seen = Observations(angles, noisy(bent, angles, 1))
+    found = calibrate(robot.arm, (OFFSETS, JOINT_ERRORS), seen)
     assert len(found.model.names) == len(JOINT_ERRORS)
     compliance = found.model.coefficients(found.estimate.parameters)["compliance"]
     assert compliance[1:3] == pytest.approx([-1e-4] * 2, rel=0.1)
@@ -95,9 +94,8 @@ def calibration(robot) -> Calibration:
 
 
 def test_a_parameter_is_known_by_its_name_with_its_standard_error(calibration):
-    elbow, base = (
-        calibration.parameters[name] for name in ("offset of elbow_joint", "shift x of base")
-    )
+    names = "offset of elbow_joint", "shift x of base"
+    elbow, base = (calibration.parameters[name] for name in names)
     assert (elbow.unit, base.unit) == ("deg", "mm")
     assert (elbow.value, base.value) == pytest.approx((3, 4))
     assert (elbow.deviation, base.deviation) == pytest.approx((np.degrees(1e-4), 0.1))

@@ -45,9 +45,8 @@ def test_a_jump_of_any_size_is_named_wherever_it_is_before_its_rows_are_outliers
     joints = MIDDLE + random.uniform(-AROUND, AROUND, (count, 6))
     poses = real.poses(joints)
     motion = np.eye(4)
-    motion[:3, 3] = np.exp(random.uniform(np.log(5 * NOISE[0]), np.log(0.08))) * np.array(
-        [0.6, 0, 0.8]
-    )
+    size = np.exp(random.uniform(np.log(5 * NOISE[0]), np.log(0.08)))
+    motion[:3, 3] = size * np.array([0.6, 0, 0.8])
     turn = random.integers(2) * np.exp(random.uniform(np.log(1e-3), np.log(np.radians(3))))
     motion[:3, :3] = Rotation.from_rotvec([0.0, turn, 0.0]).as_matrix()
     poses[first:] = motion @ poses[first:]

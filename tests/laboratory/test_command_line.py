@@ -100,10 +100,7 @@ def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_
     assert main(arguments) == REFUSED
     assert "measured positions do not determine a target's rotation" in capsys.readouterr().err
     assert main([*arguments, "--frame=base"]) == REFUSED
-    assert (
-        "arm's base is not identifiable from the measurements; try: a cal"
-        in capsys.readouterr().err
-    )
+    assert "arm's base is not identifiable from the measurements;" in capsys.readouterr().err
     write(folder / "joints.csv", in_degrees(arm, postures(3)))
     arguments[2] = str(folder / "joints.csv")
     assert main(arguments) == REFUSED
@@ -207,9 +204,8 @@ def test_a_parked_joint_is_held_at_any_angle_and_named(angle, tmp_path, capsys):
     joints[:, 0] = angle
     offsets = np.radians(random.uniform(-1, 1, 6))
     noise = NOISE * random.standard_normal((40, 3))
-    write(
-        tmp_path / "rows.csv", table(arm, joints, arm.forward(joints + offsets)[:, :3, 3] + noise)
-    )
+    positions = arm.forward(joints + offsets)[:, :3, 3] + noise
+    write(tmp_path / "rows.csv", table(arm, joints, positions))
     arguments = ["ur10_robot.urdf", f"{tmp_path}/rows.csv", "--tool=tool0", f"--out={tmp_path}/out"]
     assert main(["calibrate", *arguments]) == DONE
     at = f"{np.degrees(angle):.1f} deg"

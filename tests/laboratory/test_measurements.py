@@ -66,17 +66,15 @@ def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
     ):
         cells = ([number] * ROWS for number in numbers)
         columns = joints() | positions() | dict(zip(names, cells, strict=True))
-        assert np.allclose(
-            read_measurements(write(columns), gantry).measured[:, :3, :3], turn.as_matrix()
-        )
+        read = read_measurements(write(columns), gantry)
+        assert np.allclose(read.measured[:, :3, :3], turn.as_matrix())
 
 
 def test_targets_and_sockets_are_named_also_in_what_is_desired(gantry, write):
     names = ["left", "right"] * (ROWS // 2)
     read = read_measurements(write(joints() | {"socket": names, "target": names}), gantry)
-    assert [*read.columns["sockets"]] == [
-        *read.columns["targets"]
-    ] == names and read.positions is None
+    assert [*read.columns["sockets"]] == [*read.columns["targets"]] == names
+    assert read.positions is None
     names = {"target": ["board"] * ROWS, "picture": ["a.png"] * ROWS}
     read = read_desired(write(joints() | positions() | names), gantry, target=True)
     assert [*read.columns["targets"]] == names["target"] and np.allclose(read.positions[-1], 0.002)
@@ -151,7 +149,6 @@ def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
     ],
 )
 def test_times_are_seconds_or_dates(column, cells, began, gantry, write):
-    times = read_measurements(write(joints() | positions() | {column: cells}), gantry).columns[
-        "times"
-    ]
+    read = read_measurements(write(joints() | positions() | {column: cells}), gantry)
+    times = read.columns["times"]
     assert np.allclose(times, began + 1.5 * np.arange(ROWS), rtol=0, atol=1e-6)

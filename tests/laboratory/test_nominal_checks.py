@@ -147,9 +147,8 @@ def reread(poses: np.ndarray, change) -> np.ndarray:
 
 
 def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
-    poses = reread(
-        arm.forward(joints), lambda its: euler("xyz", [[0.2, np.pi / 2, 0.0]] * len(its))
-    )
+    right = lambda its: euler("xyz", [[0.2, np.pi / 2, 0.0]] * len(its))  # noqa: E731
+    poses = reread(arm.forward(joints), right)
     assert likely_mistake(arm, joints, poses, most_steps=1) is None
 
 

@@ -23,9 +23,8 @@ SIZES = {"supernet": (2, 3, 1), "subnet": (1, 2, 2)}
 
 def strange_world(commands):
     """A smooth damage of its own for each coordinate; (run, move, 6)."""
-    mixed = (
-        commands + 0.1 * np.sin(commands[..., [1, 2, 3, 4, 5, 0]] + 0.3) - 0.05 * commands**2 + 0.2
-    )
+    bent = 0.1 * np.sin(commands[..., [1, 2, 3, 4, 5, 0]] + 0.3)
+    mixed = commands + bent - 0.05 * commands**2 + 0.2
     return Outcome(mixed, np.ones(commands.shape[:2], dtype=bool))
 
 

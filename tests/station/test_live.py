@@ -61,9 +61,8 @@ def test_it_says_where_the_tool_will_be_and_ends_as_soon_as_the_arm_is_right(liv
     assert lived.ended.rows == len(lived.rows) <= 14 and "stop" not in lived.station.calls
     assert remaining(lived.station, lived.rows, lived.running) < 3e-4
     predicted = lived.running.error(lived.rows)
-    assert (
-        lived.lines[-1] == f"row {len(lived.rows)}: the predicted error is {1e3 * predicted:.3g} mm"
-    )
+    last = f"row {len(lived.rows)}: the predicted error is {1e3 * predicted:.3g} mm"
+    assert lived.lines[-1] == last
     ranges = re.findall(r"([xyz]) from (-?\d+) to (-?\d+) mm", lived.lines[0])
     low, high = np.array([(float(a), float(b)) for _, a, b in ranges]).T
     places = 1e3 * np.array([move.tool_after for move in lived.asked])

@@ -223,9 +223,8 @@ def test_four_markers_are_enough_and_eight_corners_are_needed():
     picture = np.kron(np.where(board.modules, 0, 255), np.ones((12, 12))).astype(np.uint8)
     square = picture.shape[1] // 7
     for columns, corners in ((3, 8), (2, 4)):
-        part = cv2.copyMakeBorder(
-            picture[:, : columns * square], *4 * [50], cv2.BORDER_CONSTANT, value=255
-        )
+        part, border = picture[:, : columns * square], (*4 * [50], cv2.BORDER_CONSTANT)
+        part = cv2.copyMakeBorder(part, *border, value=255)
         if corners < 8:
             with pytest.raises(Unusable, match=f"it shows {corners} corners; expected: at least 8"):
                 find_corners(board, part)

@@ -127,11 +127,7 @@ def test_pixels_are_read_and_weighed(observed, calibrated):
         ("corners.csv", ("\n003.png,", "\n99,"), "003.png has 0 corners"),
         ("corners.csv", ("\n003.png,7,", "\n3,70,"), "a corner is not among the board's 24"),
         ("corners.csv", ("\n003.png,7,", "\n003.png,6,"), "003.png has a corner twice"),
-        (
-            "corners.csv",
-            ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"),
-            "expected: up to 100000 px",
-        ),
+        ("corners.csv", ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"), "expected: up to 100000 p"),
         ("measurements.csv", ("picture,", "a picture,"), "unknown column 'a picture'"),
     ],
 )

@@ -168,12 +168,9 @@ def test_a_part_of_a_plain_pattern_is_refused(name):
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
+        ("target_type: aprilgrid\ntagCols: 6\ntagRows: 5\ntagSize: 0.028\ntagSpacing: 0.3\n", GRID),
         (
-            "target_type: 'aprilgrid'\ntagCols: 6\ntagRows: 5\ntagSize: 0.028\ntagSpacing: 0.3\n",
-            GRID,
-        ),
-        (
-            "target_type: checkerboard\ntargetCols: 8\ntargetRows: 5\n"
+            "target_type: 'checkerboard'\ntargetCols: 8\ntargetRows: 5\n"
             "rowSpacingMeters: 0.025\ncolSpacingMeters: 0.025\n",
             CHESS,
         ),

@@ -78,9 +78,8 @@ def in_one_fit(tmp_path_factory):
     @cache
     def make(setup: str):
         made, (sessions, *_) = tmp_path_factory.mktemp("cell"), SETUPS[setup]
-        folders = [
-            write_session(made / str(number), *session) for number, session in enumerate(sessions)
-        ]
+        numbered = enumerate(sessions)
+        folders = [write_session(made / str(number), *session) for number, session in numbered]
         return calibrated(*folders), folders
 
     return make

@@ -147,9 +147,8 @@ def test_an_arm_learns_in_the_browser_by_keyboard_on_a_narrow_screen(site, tmp_p
                 browser.find_element(By.CSS_SELECTOR, "[role=status]").text,
             )
         )
-        assert all(
-            float(after) < 0.1 * its for after, its in zip(status.groups(), before[:2], strict=True)
-        )
+        ends = zip(map(float, status.groups()), before[:2], strict=True)
+        assert all(after < 0.1 * its for after, its in ends)
         assert severe(browser) == []
 
 

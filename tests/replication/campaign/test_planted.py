@@ -75,12 +75,7 @@ POSITION, ORIENTATION = names_of("position"), names_of("orientation")
 WIDE = [TWO_MAPS, "two_maps_for_position", "two_maps_for_position_wide"]
 ONE = [IMPROVED, DOUBLE, "one_map_for_position", "one_map_for_orientation"]
 THETA = [IMPROVED, "improved_theta_values"]
-CELLS = [
-    "small_supernet",
-    "small_subnet",
-    "small_supernet_for_position",
-    "small_subnet_for_position",
-]
+CELLS = [f"small_{net}{kind}" for kind in ("", "_for_position") for net in ("supernet", "subnet")]
 DRASTIC = [IMPROVED, "improved_values", "improved_drastic", "improved_values_drastic"]
 without = by_name({"improved_theta_values": 1})
 small = by_name({"small_subnet": 1, "small_subnet_for_position": 1})

@@ -33,9 +33,8 @@ def numbers(values):
 
 
 def test_the_larger_share_counts_unless_one_error_is_asked_for():
-    assert numbers(ONE.values(TABLE)) == pytest.approx(
-        np.array([[0.3, 0.2], [0.5, np.nan]]), nan_ok=True
-    )
+    expected = np.array([[0.3, 0.2], [0.5, np.nan]])
+    assert numbers(ONE.values(TABLE)) == pytest.approx(expected, nan_ok=True)
     position = Remaining("one", 200, "position").values(TABLE)
     assert numbers(position)[0] == pytest.approx([0.1, 0.2])
 
@@ -47,15 +46,12 @@ def test_a_contrast_is_a_ratio_in_the_same_setup_and_replicate_a_difference_one_
     double = Contrast(ONE, TWO)
     nothing = Difference(double, double).values(TABLE)
     assert numbers(nothing) == pytest.approx(np.array([[1, 1], [1, np.nan]]), nan_ok=True)
-    assert numbers(Difference(double, Contrast(TWO, ONE)).values(TABLE))[0, 0] == pytest.approx(
-        0.25
-    )
+    other = Difference(double, Contrast(TWO, ONE)).values(TABLE)
+    assert numbers(other)[0, 0] == pytest.approx(0.25)
 
 
 def test_a_compromise_is_compared_with_the_larger_share_of_both_tuned_alone():
-    alone = [
-        Remaining(name, 200, error) for name, error in (("one", "position"), ("two", "orientation"))
-    ]
+    alone = Remaining("one", 200, "position"), Remaining("two", 200, "orientation")
     found = Compromise(TWO, *alone).values(TABLE)
     assert numbers(found)[0, 0] == pytest.approx(0.6 / 0.2)  # of 0.1 and 0.2
 

@@ -68,9 +68,8 @@ def test_a_pose_has_many_joint_solutions_and_one_command(controller, robot, dama
 def test_joint_solutions_are_counted_once_and_all_reach_the_pose(controller, robot, damaged):
     pose = robot.workspace.to_poses(np.zeros((1, 6)))
     own = controller.solve(pose).angles
-    starts = np.vstack(
-        [own, own + 2 * np.pi, own, np.random.default_rng(1).uniform(-3, 3, (60, 6))]
-    )
+    others = np.random.default_rng(1).uniform(-3, 3, (60, 6))
+    starts = np.vstack([own, own + 2 * np.pi, own, others])
     limits = np.full(6, -9.0), np.full(6, 9.0)
     found = joint_solutions(damaged, pose[0], starts, limits)
     assert np.allclose(damaged.forward(found), pose, atol=1e-9)

@@ -66,11 +66,8 @@ def test_figure_1_shows_the_means_of_the_seeds(figures, evidence):
             assert iterations[-1] == 200 and np.allclose(errors, means)
     (legend,) = figures[Figure.LEARNERS].legends
     labels = [text.get_text() for text in legend.get_texts()]
-    assert labels == [
-        "improved, 200 iterations",
-        "Ritter, 200 iterations",
-        "Ritter, 10,000 iterations",
-    ]
+    trained = "improved, 200", "Ritter, 200", "Ritter, 10,000"
+    assert labels == [f"{name} iterations" for name in trained]
     _, errors = line(figures[Figure.LEARNERS].axes[0], labels[0])
     assert errors[-1] == pytest.approx(evidence.errors(IMPROVED, 200)[:, 0].mean())
 

@@ -35,10 +35,8 @@ def few(study):
 def written(few, tmp_path_factory):
     folder = tmp_path_factory.mktemp("scenarios")
     files = {place: folder / place.scenario_file("results/studies/few") for place in places(few)}
-    write(
-        folder / "results/studies/few/assignments/ur10.parquet",
-        write_scenarios(few, [*files.values()]),
-    )
+    table = write_scenarios(few, [*files.values()])
+    write(folder / "results/studies/few/assignments/ur10.parquet", table)
     return folder, files
 
 
@@ -107,9 +105,8 @@ def test_the_paper_allows_5760_different_assignments(robot):
 @pytest.fixture(scope="module")
 def assigned(plan):
     published = Published(position_error_cm=5.0, orientation_error_deg=3.0)
-    damage = PaperDamage.model_construct(
-        shorten=(0.01, 0.04), shift=(0.05,), published=published, poses=10
-    )
+    amounts = {"shorten": (0.01, 0.04), "shift": (0.05,), "poses": 10}
+    damage = PaperDamage.model_construct(published=published, **amounts)
     return damage, *assign(plan.nominal("ur10"), damage, seed=1)
 
 

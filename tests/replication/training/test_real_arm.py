@@ -88,9 +88,8 @@ def recording(table, ur5, description, tmp_path_factory):
 
 
 def test_learners_leave_ever_smaller_errors_of_what_was_recorded(recording, ur5):
-    distance = np.linalg.norm(
-        ur5.arm.forward(recording.angles)[:, :3, 3] - recording.nominal, axis=1
-    )
+    reached = ur5.arm.forward(recording.angles)[:, :3, 3]
+    distance = np.linalg.norm(reached - recording.nominal, axis=1)
     assert distance.max() < 5e-5
     known, unknown = recording[:100], recording[100:]
     left = {name: 1e3 * remaining_errors(name, ur5, known, unknown).mean() for name in peers()}

@@ -85,9 +85,8 @@ def test_every_training_of_a_study_needs_settings(study):
     needed = trained(study)
     its = study.experiments
     for learners in (its.learners, its.own):
-        assert {
-            (name, length) for name, lengths in learners.items() for length in lengths
-        } <= needed
+        pairs = {(name, length) for name, lengths in learners.items() for length in lengths}
+        assert pairs <= needed
     assert {*study.real.twin.items(), *study.benchmark.papers.items()} <= needed
     assert ("improved", its.iterations) in needed
     assert {(switch.without, 200) for switch in SWITCHES} <= needed

@@ -47,9 +47,8 @@ def test_poses_are_independent_by_default_or_spread_evenly():
     assert np.array_equal(drawn([2], 20).desired[0], same)
     short, long = (drawn([2, 3], n, order="even").desired for n in (20, 200))
     assert np.array_equal(short, long[:, :20])
-    assert (
-        not np.isclose(long[0], long[1]).any() and -1 < long.min() < -0.98 < 0.98 < long.max() < 1
-    )
+    assert not np.isclose(long[0], long[1]).any()
+    assert -1 < long.min() < -0.98 < 0.98 < long.max() < 1
     random = drawn([2, 3], 200).desired
     for one, other in zip(long, random, strict=True):
         assert qmc.discrepancy((one + 1) / 2) < 0.2 * qmc.discrepancy((other + 1) / 2)
@@ -75,12 +74,8 @@ def test_a_history_has_all_lengths_and_the_archive_the_learner_of_the_shortest(j
     train(*arguments)
     table = pd.read_parquet(history)
     measured = table.groupby(["iterations", "seed"])["iteration"].agg(list).to_dict()
-    assert measured == {
-        (6, 0): [0, 4, 6],
-        (6, 1): [0, 4, 6],
-        (9, 0): [0, 4, 8, 9],
-        (9, 1): [0, 4, 8, 9],
-    }
+    short, long = [0, 4, 6], [0, 4, 8, 9]
+    assert measured == {(6, 0): short, (6, 1): short, (9, 0): long, (9, 1): long}
     last = table[table["iteration"] == table["iterations"]]
     assert (last["moves"] == 2 * last["iterations"]).all()
     before = table[table["iteration"] == 0].groupby("seed")["position_error_cm"]
