@@ -161,10 +161,8 @@ def load(tmp_path):
 @pytest.fixture(scope="session")
 def damaged(robot) -> DamagedArm:
     """A damage as serious as the paper's."""
-    shift = (
-        EncoderShift("elbow_joint", np.radians(4)),
-        EncoderShift("wrist_3_joint", np.radians(-3)),
-    )
+    shifts = {"elbow_joint": np.radians(4), "wrist_3_joint": np.radians(-3)}
+    shift = [EncoderShift(joint, angle) for joint, angle in shifts.items()]
     return apply(robot, [LinkShortening("forearm_link", 0.04), *shift])
 
 

@@ -52,9 +52,7 @@ def cycle(
     for m, (cell, theta, A), (width_k, width_kl) in zip(maps, winners, widths, strict=True):
         d_theta = A @ (u - u1)
         there, du_there = A / units, units * du  # d theta / d (units u), and units du
-        error = (
-            np.outer(d_theta - there @ du_there, du_there) / np.linalg.norm(du_there) ** 2
-        ) * units
+        error = np.outer(d_theta - there @ du_there, du_there) / (du_there @ du_there) * units
         theta_star = d_theta if theta_increments else theta + d_theta  # (6) or (2)
         A_star = error if jacobian_increments else A + error  # (8) or (3)
         for i, j in m.theta:
@@ -86,12 +84,8 @@ def identify(linearise, deviations, measured):
     """
     count, kinds = len(deviations), 1 if measured.ndim == 2 else 2
     limit = chi2.ppf(0.99, 3 * kinds)
-    p, v, noise, weights = (
-        np.zeros(count),
-        np.ones(count),
-        np.full(kinds, 1e-4),
-        np.ones(len(measured)),
-    )
+    p, v = np.zeros(count), np.ones(count)
+    noise, weights = np.full(kinds, 1e-4), np.ones(len(measured))
     for step in range(60):
         poses, jacobians = linearise(p * deviations)
         r = [_residuals(pose, its) for pose, its in zip(poses, measured, strict=True)]

@@ -72,9 +72,7 @@ def test_a_link_may_lose_its_length_along_an_axis(robot, link, before, after):
     arms = robot.arm, damaged.arm
     ends = [link_end(arm.model, "tool0", robot.links[link]).translation for arm in arms]
     assert np.allclose(ends, [before, after])
-    with pytest.raises(
-        InvalidSetting, match=r"61\.2 cm.*; expected: from 0 to below (61.20|9.22) cm"
-    ):
+    with pytest.raises(InvalidSetting, match=r"61\.2 cm.*; expected: .* below (61.20|9.22) cm"):
         apply(robot, [LinkShortening(link, 0.612, "axis")])
     with pytest.raises(UnknownName, match="expected: axis or line"):
         LinkShortening(link, 0.04, "z")

@@ -28,20 +28,10 @@ from tests.laboratory.conftest import (
     write,
 )
 
-INSTRUMENT = """
-[instrument]
-position = ["1 m", "0 m", "0 m"]
-"""
-TARGET = """
-[target]
-position = ["0 mm", "0 mm", "50 mm"]
-"""
+INSTRUMENT = '[instrument]\nposition = ["1 m", "0 m", "0 m"]\n'
+TARGET = '[target]\nposition = ["0 mm", "0 mm", "50 mm"]\n'
 POINT = 0, 0, 0.05, 1  # m
-DISTANCE = """
-[[distance]]
-sockets = ["{}", "right"]
-length = "{} mm"
-"""
+DISTANCE = '[[distance]]\nsockets = ["{}", "right"]\nlength = "{} mm"\n'
 
 
 @pytest.fixture(scope="module")

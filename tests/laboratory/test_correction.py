@@ -147,22 +147,19 @@ def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correctio
     assert commands.beyond[:, 2] == pytest.approx([0, away, 0, away], rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("name", "change"),
-    [
-        ("calibration/terms", lambda its: its[:-1]),
-        ("calibration/estimate/noise", lambda its: np.nan * its),
-        ("learned", lambda its: its > 0),
-        ("calibration/frames/sights", lambda its: its[:0]),
-        ("calibration/frames/sights", lambda its: its + 1),
-        ("calibration/frames/sights", lambda its: its - 1),
-        ("calibration/frames/sights", lambda its: 1.0 * its),
-    ],
-    ids=[
-        *("another error model", "no number", "no angles", "no sight", "another target"),
-        *("a target below zero", "a target without a number"),
-    ],
-)
+SIGHTS = "calibration/frames/sights"
+WRONG_PARTS = {  # by what they are: a part of the file, and what becomes of it
+    "another error model": ("calibration/terms", lambda its: its[:-1]),
+    "no number": ("calibration/estimate/noise", lambda its: np.nan * its),
+    "no angles": ("learned", lambda its: its > 0),
+    "no sight": (SIGHTS, lambda its: its[:0]),
+    "another target": (SIGHTS, lambda its: its + 1),
+    "a target below zero": (SIGHTS, lambda its: its - 1),
+    "a target without a number": (SIGHTS, lambda its: 1.0 * its),
+}
+
+
+@pytest.mark.parametrize(("name", "change"), WRONG_PARTS.values(), ids=WRONG_PARTS)
 def test_parts_that_do_not_belong_together_are_refused(name, change, small, tmp_path):
     path = tmp_path / "correction.npz"
     path.write_bytes(small)
@@ -184,7 +181,7 @@ def test_a_file_that_was_tampered_with_ends_in_a_sentence(small, data):
         path = Path(folder) / "correction.npz"
         path.write_bytes(small)
         spoil(data.draw, path)
-        (Path(folder) / "desired.csv").write_text("swing [deg],lift [deg],elbow [deg]\n0,-40,60\n")
+        (Path(folder) / "rows.csv").write_text("swing [deg],lift [deg],elbow [deg]\n0,-40,60\n")
         for command in (
             ["correct", folder, f"{folder}/desired.csv"],
             ["next", folder, "--count=2"],

@@ -77,9 +77,8 @@ def test_an_empty_folder_will_do_and_parents_are_made(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {"empty", "a"}
 
 
-NAME = st.sampled_from(
-    [*INPUTS, "arm.urdf", "calibration", "notes.txt", ".hidden", "ä b", "commands.csv"]
-)
+OTHERS = "calibration", "notes.txt", ".hidden", "ä b", "commands.csv"
+NAME = st.sampled_from([*INPUTS, *OTHERS])
 ENTRY = st.one_of(
     st.tuples(st.just("file"), st.binary(max_size=4)),
     st.tuples(st.just("link"), NAME),

@@ -102,12 +102,8 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     assert np.allclose(left, 1e3 * np.array(told["targets_in_tool"]["left"])[:3, 3], atol=0.01)
     instrument, left, _ = read_places(calibrated[1])
     assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
-    assert (
-        0
-        < float(left["deviation [mm]"])
-        < 1
-        < float(left["deviation relative to the real link [mm]"])
-    )
+    near, far = "deviation [mm]", "deviation relative to the real link [mm]"
+    assert 0 < float(left[near]) < 1 < float(left[far])
 
 
 def read_places(folder: Path) -> list[dict[str, str]]:

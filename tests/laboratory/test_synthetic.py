@@ -44,9 +44,8 @@ def lab(tmp_path_factory):
     joints = rng.uniform(-0.9, 0.9, (ROWS, 4)) * [1.0, 0.8, 0.2, 1.1] + [0.1, -0.3, 0.4, 0.2]
     joints[:, 3] = np.where(np.arange(ROWS) % 7 == 2, joints[::-1, 3], joints[:, 3])
     clock = np.cumsum(rng.uniform(0.3, 2.0, ROWS))
-    columns = {
-        name: column for name, column in in_degrees(arm, joints).items() if "reach" not in name
-    }
+    columns = in_degrees(arm, joints)
+    del columns["reach [deg]"]
     columns["reach [cm]"] = 100 * joints[:, 2]
     poses = real.poses(joints)
     poses[6, :3, 3] += 0.02

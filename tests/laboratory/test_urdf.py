@@ -77,9 +77,8 @@ def test_where_the_arm_stands_on_another_link_only_what_is_between_changes(tmp_p
     text, tool = corrected_urdf(find_urdf("panda.urdf").read_bytes(), calibration)
     again = reloaded(text, tool, arm, tmp_path)
     assert np.abs(again.forward(joints) - calibration.forward(joints)).max() < ROUNDING
-    nominal, below = (
-        load_arm(path, "panda_link2") for path in ("panda.urdf", tmp_path / "corrected.urdf")
-    )
+    both = "panda.urdf", tmp_path / "corrected.urdf"
+    nominal, below = (load_arm(path, "panda_link2") for path in both)
     assert np.array_equal(below.forward(np.ones((1, 2))), nominal.forward(np.ones((1, 2))))
     arm = load_arm("z1.urdf", "link06")
     text, name = corrected_urdf(find_urdf("z1.urdf").read_bytes(), random_calibration(arm))

@@ -93,9 +93,7 @@ def test_an_installed_description_is_found_by_its_name(monkeypatch, tmp_path):
     name = "robot_descriptions.scara_description"
     monkeypatch.setitem(sys.modules, name, SimpleNamespace(URDF_PATH=str(path)))
     assert len(load_arm("scara_description").joints) == 4
-    with pytest.raises(
-        InvalidSetting, match=r"'arm_description'; expected: .* has to be installed"
-    ):
+    with pytest.raises(InvalidSetting, match=r"'arm_description'; .* has to be installed"):
         load_arm("arm_description")
 
 

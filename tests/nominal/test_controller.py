@@ -60,9 +60,7 @@ def test_neighbouring_commands_stay_on_the_branch_of_home(some):
 def test_a_pose_out_of_reach_is_an_error_that_names_it(controller):
     pose = controller.robot.workspace.centre.copy()
     pose[0, 3] = 3.0
-    with pytest.raises(
-        Unreachable, match=r"\(3.000, .*no joint angles reach it \(residual"
-    ) as caught:
+    with pytest.raises(Unreachable, match=r"\(3.000, .*no joint angles reach it") as caught:
         controller.inverse(np.stack([controller.robot.workspace.centre, pose]))
     assert caught.value.residual > 1 and caught.value.position[0] == 3.0
 

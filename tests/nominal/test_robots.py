@@ -67,7 +67,5 @@ def test_a_workspace_without_size_or_for_fewer_than_six_joints_is_refused(robot,
         load_robot(robot.urdf, "tool0", home, [0, 0.6, 0.5], SIDES[1])
     (path := tmp_path / "scara.urdf").write_text(SCARA)
     home = dict.fromkeys(("shoulder", "elbow", "quill", "wrist"), 0.1)
-    with pytest.raises(
-        UnsuitableRobot, match="with 4 joints: shoulder, .*; expected: at least six"
-    ):
+    with pytest.raises(UnsuitableRobot, match="with 4 joints: .*; expected: at least six"):
         load_robot(path, "link_5", home, *SIDES)

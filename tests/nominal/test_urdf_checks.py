@@ -21,9 +21,8 @@ GRIPPER = (
     '<link name="hand"/><joint name="grip" type="revolute"><parent link="link_1"/>'
     '<child link="hand"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>'
 )
-LOOP = (
-    '<joint name="back" type="revolute"><parent link="base"/><child link="link_2"/></joint></robot>'
-)
+BACK = '<parent link="base"/><child link="link_2"/></joint></robot>'
+LOOP = f'<joint name="back" type="revolute">{BACK}'
 CIRCLE = """<link name="one"/><link name="two"/>
 <joint name="j" type="fixed"><parent link="one"/><child link="two"/></joint>
 <joint name="k" type="fixed"><parent link="two"/><child link="one"/></joint></robot>"""

@@ -184,9 +184,7 @@ def test_a_prompt_says_where_the_tool_goes_and_which_joints_turn(move, monkeypat
     assert f"{away:.0f} mm away: shoulder_pan_joint by +30.0 deg, elbow_joint by -12.3 deg" in asked
     assert asked.count("joint by") == 8 and "s: skip this posture for good, q: end" in asked
     monkeypatch.setattr("sys.stdin.readline", lambda: "", raising=False)
-    with pytest.raises(
-        InvalidSetting, match="an answer is missing; expected: a person at the term"
-    ):
+    with pytest.raises(InvalidSetting, match="an answer is missing; expected: a person at"):
         ask_to_move(arm, its)
 
 

@@ -29,9 +29,8 @@ def postures(damaged: DamagedArm, count: int) -> np.ndarray:
     """(count, joints) rad, within the limits."""
     model = damaged.arm.model
     low, high = model.lowerPositionLimit, model.upperPositionLimit
-    return np.random.default_rng(0).uniform(
-        np.maximum(low, -3), np.minimum(high, 3), (count, len(low))
-    )
+    low, high = np.maximum(low, -3), np.minimum(high, 3)
+    return np.random.default_rng(0).uniform(low, high, (count, len(low)))
 
 
 @pytest.mark.parametrize("damaged", [bent(), intact("panda")], ids=["bent ur10", "panda"])

@@ -58,9 +58,8 @@ def photograph(
     """
     paper, optics = round(PAPER * scale), (lens.matrix, lens.distortion)
     ends = (np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) * sheet.shape[::-1] - paper) / scale
-    pixels, _ = cv2.projectPoints(
-        np.pad(ends, ((0, 0), (0, 1))), pose[:3, :3], pose[:3, 3], *optics
-    )
+    corners, where = np.pad(ends, ((0, 0), (0, 1))), (pose[:3, :3], pose[:3, 3])
+    pixels, _ = cv2.projectPoints(corners, *where, *optics)
     low = np.clip(pixels.min(axis=(0, 1)) - 50, 0, lens.size).astype(int)
     high = np.clip(pixels.max(axis=(0, 1)) + 50, 0, lens.size).astype(int)
     x, y = ((np.arange(FINE * a, FINE * b) + 0.5) / FINE - 0.5 for a, b in np.stack([low, high], 1))

@@ -75,9 +75,8 @@ def begun(tmp_path, monkeypatch):
 
 def read_again(cell):
     """The table by another process."""
-    record = Record(
-        "table.csv", cell.arm, Description(), BoardInPictures(cell.board, cell.lens, False)
-    )
+    pictures = BoardInPictures(cell.board, cell.lens, False)
+    record = Record("table.csv", cell.arm, Description(), pictures)
     record.close()
     return record.observations
 
@@ -102,9 +101,8 @@ def test_a_picture_that_is_not_what_it_was_is_told_before_anything_moves(begun, 
     else:
         cell = replace(cell, board=replace(cell.board, dictionary="5X5_100"))
     reason = {"removed": "there is no such file", "empty": "it is not a picture"}
-    with pytest.raises(
-        InvalidFile, match=rf"\d.png: {reason.get(gone, 'it does not show the board')}"
-    ):
+    reason = reason.get(gone, "it does not show the board")
+    with pytest.raises(InvalidFile, match=rf"\d.png: {reason}"):
         read_again(cell)
 
 

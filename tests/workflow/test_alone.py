@@ -42,9 +42,8 @@ def results(tmp_path):
     """A folder of results with what killed processes left there, and in another study's."""
     folder = tmp_path / "results"
     for path in (folder / "runs/a.parquet", folder / "studies/b/runs/a.parquet"):
-        process = multiprocessing.get_context("spawn").Process(
-            target=killed_while_writing, args=(path,)
-        )
+        spawned = multiprocessing.get_context("spawn").Process
+        process = spawned(target=killed_while_writing, args=(path,))
         process.start()
         process.join()
     (folder / "runs/b.parquet").write_text("whole")

@@ -93,9 +93,8 @@ OTHERS = "weak-coupling", "initial-error", "speed-up"  # by tables of the campai
 
 
 def test_every_claim_says_all_of_itself_and_those_of_setups_are_tried(study):
-    assert {its.statement.id for its in claims(study) if isinstance(its, OfSetups)} == {
-        *OF_SETUPS.split()
-    }
+    tried = {its.statement.id for its in claims(study) if isinstance(its, OfSetups)}
+    assert tried == {*OF_SETUPS.split()}
     every = [its.statement for its in claims(study)]
     assert len({its.id for its in every}) == len(every)
     for its in every:

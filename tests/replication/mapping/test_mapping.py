@@ -111,10 +111,7 @@ def test_the_condition_of_section_5_takes_the_best_constants_and_not_those_of_th
     for name, matrix in (("to_constant", n), ("to_original", n - m)):
         assert found[name] == pytest.approx(np.trace(matrix @ np.cov(OFFSETS.T, ddof=0) @ matrix.T))
     at_centre = OFFSETS.mean(axis=0)  # by how much the mean is not the value at the centre
-    for least, rule, matrix in (
-        ("to_constant", "classic", n),
-        ("to_original", "updated", n - m),
-    ):
+    for least, rule, matrix in (("to_constant", "classic", n), ("to_original", "updated", n - m)):
         gap = np.square(matrix @ at_centre).sum()
         assert found[rule] == pytest.approx(found[least] + gap, rel=1e-10) and gap > 0
 
@@ -149,15 +146,11 @@ def test_visits_agree_with_the_formula_in_the_middle_and_halve_on_a_face():
 
 
 def test_links_are_shortened_by_what_the_paper_says_at_most():
-    damages = [LinkShortening("forearm_link", 0.04), EncoderShift("elbow_joint", 0.1)]
-    assert grown(damages, 0.5) == [
-        LinkShortening("forearm_link", 0.02),
-        EncoderShift("elbow_joint", 0.05),
-    ]
-    assert grown(damages, 4) == [
-        LinkShortening("forearm_link", 0.04),
-        EncoderShift("elbow_joint", 0.4),
-    ]
+    def damages(short, shifted):
+        return [LinkShortening("forearm_link", short), EncoderShift("elbow_joint", shifted)]
+
+    assert grown(damages(0.04, 0.1), 0.5) == damages(0.02, 0.05)
+    assert grown(damages(0.04, 0.1), 4) == damages(0.04, 0.4)
 
 
 def test_a_scale_with_a_ball_that_cannot_be_commanded_is_left_out():

@@ -162,18 +162,12 @@ def project(small, tmp_path_factory) -> Callable[..., Path]:
     def make(change: Callable[[pd.DataFrame], pd.DataFrame] = lambda table: table) -> Path:
         folder = tmp_path_factory.mktemp("project")
         for path, table in tables(small):
-            write_in(folder / path, change(table))
+            write(folder / path, change(table))
         shutil.copy(ROOT / DESIGN, folder / DESIGN)
-        found = judge(Evidence(small, folder))
-        (folder / RESULTS / "claims.json").write_bytes(written(found))
+        write(folder / RESULTS / "claims.json", written(judge(Evidence(small, folder))))
         return folder
 
     return make
-
-
-def write_in(path: Path, table: pd.DataFrame) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write(path, table)
 
 
 @pytest.fixture(scope="session")

@@ -79,8 +79,7 @@ def test_colours_of_a_figure_differ_to_everyone(colours, seen):
     meant = {color.lower() for color in MEANT if color.startswith("#")}
     assert all(used & meant for used in colours.values())
     for name, used in colours.items():
-        shades = {
-            color: lab(SEEN[seen] @ linear(255 * np.array(to_rgb(color)))) for color in used & meant
-        }
+        meant_here = {color: linear(255 * np.array(to_rgb(color))) for color in used & meant}
+        shades = {color: lab(SEEN[seen] @ rgb) for color, rgb in meant_here.items()}
         shades["paper"] = lab(np.ones(3))
         assert apart(shades) >= test_colours.LEAST, name

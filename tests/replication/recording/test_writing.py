@@ -75,9 +75,8 @@ def test_a_recording_without_its_end_is_not_written(resolved, tmp_path, monkeypa
 def watched(resolved):
     """A learner of five moves."""
     controller, poses = resolved.controller(), Stream.REPLAY.draw(1, [0], 5, 15)
-    return watch(
-        controller, resolved.plant(controller, 1, [0]), PolynomialLearner(1), poses, [0, 5]
-    )
+    plant = resolved.plant(controller, 1, [0])
+    return watch(controller, plant, PolynomialLearner(1), poses, [0, 5])
 
 
 def test_a_published_error_is_a_level_line_beside_the_measured_one(resolved, tmp_path):
