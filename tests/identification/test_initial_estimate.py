@@ -120,16 +120,12 @@ def test_positions_in_a_plane_tell_how_the_instrument_stands():
     assert np.abs(found - observations.positions).max() < 1e-3
 
 
-def test_positions_on_a_line_leave_open_how_the_instrument_stands_wherever_they_are():
+def test_positions_on_a_line_and_rotations_that_hardly_differ_tell_nothing():
     line = np.array([3, 0, -1]) + np.outer(np.linspace(0, 1, 20), [1, 2, 2])
     bent = line + np.outer(np.linspace(-1, 1, 20) ** 2, [0, 0.1, -0.1])
     for positions, is_open in ((line, True), (bent, False)):
         observations = Observations(np.zeros((20, 6)), positions)
         assert _is_open(np.tile(np.eye(4), (20, 1, 1)), observations, None) == is_open
-
-
-def test_rotations_that_hardly_differ_tell_nothing_however_many_there_are():
-    """Of n of them, the singular values grow as the root of n; what tells nothing stays zero."""
     for count in (5, 500):
         alike = np.random.default_rng(count).normal(size=(count, 3, 3))
         alike *= np.sqrt(2 * count) / np.linalg.svd(alike.reshape(-1, 3), compute_uv=False)[0]

@@ -32,17 +32,13 @@ def test_positions_of_another_scale_are_known_by_the_links(factor, kind, ur10):
     assert found.factor == pytest.approx(1 / factor, abs=5e-3) and found.remaining < TOGETHER
 
 
-def test_one_link_that_is_shorter_is_no_scale(ur10):
+def test_one_link_that_is_shorter_or_a_joint_without_length_is_no_scale(ur10, load):
     other = ur10.copy()
     placement = other.model.jointPlacements[3]
     placement.translation = placement.translation * 0.93  # by 4 cm
     joints = np.random.default_rng(1).uniform(-1, 1, (40, 6))
     found = scale_of(ur10, Observations(joints, other.forward(joints)[:, :3, 3]))
     assert found.remaining > TOGETHER
-
-
-def test_an_arm_whose_only_joint_holds_no_length_says_nothing_of_a_scale(load):
-    """A point is as good an explanation as any, and has no noise."""
     arm, random = load(urdf(("turn", "revolute", "0 0 1", "0 0 0.3"))), np.random.default_rng(0)
     joints, target = random.uniform(-2, 2, (30, 1)), np.eye(4)
     target[:3, 3] = 0.3, 0.1, 0.1

@@ -66,23 +66,14 @@ MISTAKES = {
         lambda q, p: (q[:, [0, 1, 2, 4, 3, 5]], p),
         "the columns of wrist_1_joint and wrist_2_joint exchanged",
     ),
-    "degrees for radians": (
-        lambda q, p: (np.degrees(q), p),
-        "joint columns in degrees labelled rad",
-    ),
-    "radians for degrees": (
-        lambda q, p: (np.radians(q), p),
-        "joint columns in radians labelled deg",
-    ),
+    "degrees": (lambda q, p: (np.degrees(q), p), "joint columns in degrees labelled rad"),
+    "radians": (lambda q, p: (np.radians(q), p), "joint columns in radians labelled deg"),
     "metres for millimetres": (lambda q, p: (q, p * 1e-3), "positions in metres labelled mm"),
     "centimetres for millimetres": (lambda q, p: (q, p * 0.1), "positions in centimetres labelled"),
     "inches": (lambda q, p: (q, p / 25.4), "positions in inches labelled mm"),
     "a hundredth": (lambda q, p: (q, p * 0.01), "positions in metres labelled cm"),
     "a hundredfold": (lambda q, p: (q, p * 100), "positions in centimetres labelled m"),
-    "a left-handed frame": (
-        lambda q, p: (q, p * [1, -1, 1]),
-        "positions with a reversed axis",
-    ),
+    "a left-handed frame": (lambda q, p: (q, p * [1, -1, 1]), "positions with a reversed axis"),
     "the row before": (lambda q, p: (q[:-1], p[1:]), "joints of the row before"),
     "the row after": (lambda q, p: (q[1:], p[:-1]), "joints of the row after"),
     "two at once": (

@@ -14,6 +14,7 @@ from recalib.laboratory.calibrate import calibrate, calibrate_arm
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report import folder as report
+from recalib.laboratory.report.drawings import draw_arm, draw_errors, draw_over_joints
 from recalib.laboratory.report.recording import recording_of
 from recalib.laboratory.report.summary import errors_table
 from tests.arms import urdf
@@ -143,6 +144,21 @@ def test_the_recording_shows_measured_rows_and_their_errors(made, tmp_path):
         assert longer == pytest.approx(longer[0], rel=1e-5)
     rows = np.unique(np.concatenate(values["/now row"]))
     assert rows.tolist() == (result.counted + 1).tolist()
+
+
+def test_drawings_name_their_axes_and_are_the_same_again(made):
+    result = made("poses")
+    arm, longer = draw_arm(result)
+    for text, labels in (
+        (draw_errors(result), {"part of the rows", "cross-validated error [mm]"}),
+        (draw_over_joints(result), {"position error [mm]", "lift [deg]", "reach [mm]"}),
+        (arm, {"from the side", "from above", "x [m]", "y [m]", "z [m]"}),
+    ):
+        assert labels <= {*re.findall(r">([^<>]+)</text>", text)} and text.startswith("<svg")
+        assert "<metadata" not in text
+    assert draw_arm(result) == (arm, longer)
+    largest = np.linalg.norm(result.residuals["before"][:, :3], axis=1).max()
+    assert longer * largest == pytest.approx(0.12, rel=0.5)  # m, of an arm of about one
 
 
 @pytest.mark.parametrize("name", ["poses", "targets"])

@@ -13,11 +13,7 @@ from recalib import Arm, BaseShift, Chain, InvalidSetting, LinkShortening, apply
 from replication.scenarios import nominal_robot
 
 POSTURES = arrays(float, (3, 8), elements=st.floats(-np.pi, np.pi))  # of so many joints or fewer
-OTHERS = (
-    ("panda.urdf", "panda_hand_tcp"),
-    ("tiago.urdf", "hand_tool_link"),
-    ("so100.urdf", "gripper"),
-)
+OTHERS = {"panda.urdf": "panda_hand_tcp", "tiago.urdf": "hand_tool_link", "so100.urdf": "gripper"}
 
 
 def some_damage(robot):
@@ -43,7 +39,7 @@ def arms(plan) -> list[tuple[Arm, Chain]]:
     robots = [nominal_robot(plan.nominal(name)) for name in plan.study.robots]
     arms = [robot.arm for robot in robots]
     arms += [apply(robot, some_damage(robot)).arm for robot in robots]
-    arms += [load_arm(*other) for other in OTHERS]
+    arms += [load_arm(*other) for other in OTHERS.items()]
     arms += [askew(slides) for slides in ([False] * 6, [True, False], [False, True, False] * 2)]
     return [(arm, Chain.of(arm)) for arm in arms]
 

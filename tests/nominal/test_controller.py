@@ -104,25 +104,12 @@ def test_a_command_that_turns_far_is_solved_as_its_pose(controller):
     assert np.allclose(found.angles[0], solved.angles, atol=1e-6)
 
 
-def test_a_workspace_out_of_reach_is_refused(plan):
+def test_a_workspace_out_of_reach_or_too_near_to_a_singularity_is_refused(plan, robot, controller):
     nominal = plan.nominal("ur10")
     far = changed(nominal, robot={"workspace": {"position": (1.5, 1.5, 1.5)}})
     message = r"cannot reach \d+ of the 729 poses.*Make its workspace smaller"
     with pytest.raises(UnfitWorkspace, match=message):
         nominal_controller(far)
-
-
-@pytest.mark.parametrize("limits", [(110, 350), (-350, 130)], ids=["lower", "upper"])
-def test_a_workspace_beyond_a_joint_limit_is_refused(plan, limits):
-    message = "move elbow_joint to .* deg in .* limits of {:.1f} deg to {:.1f} deg".format(*limits)
-    limits = {"elbow_joint": np.radians(limits)}
-    limited = changed(plan.nominal("ur10"), robot={"limits": limits})
-    with pytest.raises(UnfitWorkspace, match=message):
-        nominal_controller(limited)
-
-
-def test_a_workspace_too_near_to_a_singularity_is_refused(robot, controller):
-    """By the largest condition number on a grid, in units of the workspace: by Pinocchio's."""
     workspace = robot.workspace
     grid = np.array([*product((-1.0, 0.0, 1.0), repeat=6)])
     _, jacobians = robot.arm.forward_and_jacobian(controller.inverse(workspace.to_poses(grid)))
@@ -132,6 +119,15 @@ def test_a_workspace_too_near_to_a_singularity_is_refused(robot, controller):
     Controller(robot, greatest_condition=condition * 1.0001)
     with pytest.raises(UnfitWorkspace, match=f"singularity.* reaches {condition:.3g}; "):
         Controller(robot, greatest_condition=condition * 0.9999)
+
+
+@pytest.mark.parametrize("limits", [(110, 350), (-350, 130)], ids=["lower", "upper"])
+def test_a_workspace_beyond_a_joint_limit_is_refused(plan, limits):
+    message = "move elbow_joint to .* deg in .* limits of {:.1f} deg to {:.1f} deg".format(*limits)
+    limits = {"elbow_joint": np.radians(limits)}
+    limited = changed(plan.nominal("ur10"), robot={"limits": limits})
+    with pytest.raises(UnfitWorkspace, match=message):
+        nominal_controller(limited)
 
 
 def test_the_posture_changes_smoothly_and_hardly_without_moving_the_tool(redundant):

@@ -208,9 +208,7 @@ def stuck(station, cells):
 PROTECTIVE = "the protective stop of the arm is on"
 STOPPED = {  # by what is said, what a station does
     PROTECTIVE: {"moved": lambda station: raising(StationFailed(PROTECTIVE))},
-    "for 0.3 s the station has not answered when asked to move": {
-        "moved": lambda station: time.sleep(1)
-    },
+    "for 0.3 s the station has not answered when asked to move": {"moved": lambda _: time.sleep(1)},
     "after a move, elbow_joint is 0.05 rad or m from its command": {
         "moved": lambda station: station.shift(0, 0, 0.05, 0, 0, 0)
     },
@@ -245,9 +243,7 @@ STOPPED = {  # by what is said, what a station does
     "out of sight in 10 postures in a row.* try: a smaller --span": {
         "measured": lambda station, cells: cells if measured(station) < 2 else None
     },
-    "the target is out of sight in the first posture; try: start where the instrument sees it": {
-        "measured": lambda station, cells: None
-    },
+    "the target is out of sight in the first posture; try: start": {"measured": lambda *_: None},
     "the station's joints are joint_0, .*; expected: those of the arm": {
         "joints": [f"joint_{number}" for number in range(6)]
     },
@@ -265,7 +261,7 @@ STOPPED = {  # by what is said, what a station does
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },
     "limits of shoulder_pan_joint are the wrong way round": {
-        "limits": (np.full(6, 2.0), np.full(6, -2.0))
+        "limits": np.outer([2, -2], np.ones(6))
     },
     "asked to tell its angles, the station raised OSError: no route": {
         "angles": lambda station, angles: (

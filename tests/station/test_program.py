@@ -82,7 +82,7 @@ def test_an_answer_that_is_none_is_told(program, answer, says):
         program(measure=answer).measure()
 
 
-def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
+def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = PROGRAM.format(answers=json.dumps({"describe": json.dumps(DESCRIBED)}))
     station = ProgramStation([sys.executable, "-c", text])
@@ -91,9 +91,6 @@ def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
             station.angles()
     station.stop()
     station.close()
-
-
-def test_a_program_that_does_not_end_is_ended(monkeypatch):
     monkeypatch.setattr("recalib.station.program.PATIENCE", 0.1)
     text = f"import time; print({json.dumps(DESCRIBED)!r}, flush=True); time.sleep(60)"
     station, began = ProgramStation([sys.executable, "-c", text]), time.monotonic()

@@ -82,9 +82,7 @@ def universal_robot(arm, monkeypatch):
 
     receive = {
         "getActualQ": lambda self: arm.now().tolist(),
-        "getActualQd": lambda self: (
-            (arm.goal - arm.start) / arm.seconds * (arm.part() < 1)
-        ).tolist(),
+        "getActualQd": lambda self: [*(arm.goal - arm.start) / arm.seconds * (arm.part() < 1)],
         "isEmergencyStopped": lambda self: arm.emergency,
         "isProtectiveStopped": lambda self: False,
         "__init__": lambda self, host: None,

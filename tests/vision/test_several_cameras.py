@@ -152,10 +152,6 @@ def test_each_camera_is_written_by_its_name(in_one_fit, tmp_path, capsys):
     assert [*parameters["base_in_instrument"]] == ["camera left", "camera right"]
     with (made / "frames.csv").open() as stream:
         assert [row["frame"] for row in csv.DictReader(stream)] == [*SETUPS["two fixed"][1]]
-
-
-def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
-    """Whichever camera saw it."""
     result, _ = in_one_fit("two fixed")
     rows, frames = result.data.observations[result.counted], result.calibration.frames
     nominal = (result.arm.forward(rows.joints) @ frames.targets[0])[:, :3, 3]

@@ -71,7 +71,9 @@ def test_a_folder_is_held_until_the_process_ends(tmp_path):
         assert answers.get(timeout=10) == expected
 
 
-def test_results_whose_notes_are_gone_are_refused_until_somebody_decides(tmp_path, notes):
+def test_results_without_notes_and_folders_that_are_read_only_are_refused(
+    tmp_path, notes, monkeypatch
+):
     check_known(["results"])
     hold(["results"])
     check_known(["results"])
@@ -84,9 +86,6 @@ def test_results_whose_notes_are_gone_are_refused_until_somebody_decides(tmp_pat
         check_known(["other", "results"])
     (tmp_path / "results" / MARK).unlink()
     check_known(["other", "results"])
-
-
-def test_a_folder_that_is_read_only_is_told(tmp_path, monkeypatch):
     new = str(tmp_path / "new")
     check_writable(new)
     check_writable(str(tmp_path))

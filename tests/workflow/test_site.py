@@ -116,9 +116,10 @@ def test_no_picture_is_broken_and_no_link_leads_nowhere(visit):
 
 
 @needs_chromium
-def test_nothing_is_asked_of_the_network_and_the_console_is_silent(visit):
+def test_nothing_is_asked_of_the_network_the_console_is_silent_and_the_search_works(visit):
     assert visit.console == []
     assert {urlsplit(url).scheme for url in visit.requests} <= {"file", "data", "about"}
+    assert "campaign" in visit.found.lower()
 
 
 @needs_chromium
@@ -168,8 +169,3 @@ def test_a_recording_is_shown_on_its_page_without_a_server(site, tmp_path):
         WebDriverWait(browser, 2 * PATIENCE, 1).until(drawn, "the recording is not drawn")
         assert severe(browser) == []
         assert {urlsplit(url).scheme for url in requests(browser)} <= {"file", "data", "blob"}
-
-
-@needs_chromium
-def test_the_search_works_without_a_server(visit):
-    assert "campaign" in visit.found.lower()

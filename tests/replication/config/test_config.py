@@ -93,28 +93,6 @@ def test_of_what_is_no_damage_the_keys_of_all_kinds_are_told(here):
     assert all(re.search(rf"\b{word}\b", mistake) for word in Imperfection.kinds)
 
 
-NOTHING = "mine.yaml:1:1: no configuration; expected: keys with their values"
-ENDLESS = "mine.yaml: an anchor within itself, or too many brackets"
-
-
-@pytest.mark.parametrize(
-    ("content", "said"),
-    [
-        (None, "mine.yaml: No such file or directory"),
-        (b"a: \xff\n", "mine.yaml: no text in UTF-8"),
-        (b"a: \x07\n", "mine.yaml: no text in UTF-8"),
-        pytest.param(b"a: " + b"[" * 9999, ENDLESS, id="brackets"),
-        *((text, NOTHING) for text in (b"", b"# nothing\n", b"{}\n", b"---\n")),
-    ],
-)
-def test_a_file_that_is_no_configuration_is_refused(here, content, said):
-    if content is not None:
-        (here / "mine.yaml").write_bytes(content)
-    with pytest.raises(InvalidConfiguration) as caught:
-        read_study(SHIPPED, "mine.yaml")
-    assert caught.value.mistakes == [said]
-
-
 def test_of_many_mistakes_the_first_are_shown(here):
     text = "".join(f"key{number}: 1\n" for number in range(MOST_SHOWN + 5))
     (here / "mine.yaml").write_text(text, encoding="utf-8")

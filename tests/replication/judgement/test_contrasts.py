@@ -75,9 +75,7 @@ def test_a_factor_is_interpolated_between_two_lengths_on_logarithmic_scales():
     assert found.bounds.to_numpy().tolist() == [[0]]
 
 
-@pytest.mark.parametrize(
-    ("goal", "factor", "bound"), [(0.02, 100, 1), (0.95, 1, -1), (0.03, 100, 0)]
-)
+@pytest.mark.parametrize("goal, factor, bound", [(0.02, 100, 1), (0.95, 1, -1), (0.03, 100, 0)])
 def test_where_a_ladder_ends_the_factor_is_a_bound(goal, factor, bound):
     rows = [*LADDER[:-1], (0, 0, "one", 200, goal, 0.01)]
     found = Crossing("slow", ONE).values(outcomes(rows))

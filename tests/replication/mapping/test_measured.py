@@ -61,12 +61,11 @@ def test_claims_about_the_mapping_are_judged_by_what_is_measured(few, evidence, 
         assert finding.verdict is JUDGED[name]
 
 
-def test_the_cross_effect_is_measured_in_each_scenario(few, evidence):
+def test_the_cross_effect_is_measured_in_each_scenario_and_what_lacks_is_said(
+    few, evidence, tmp_path
+):
     table = evidence.mapping("coupling")
     assert table.groupby("scenario").size().to_dict() == {"links_encoders": 6, "rotation": 6}
     assert table[table["scenario"] == "rotation"][["position", "orientation"]].max().max() < 1e-3
-
-
-def test_what_is_not_measured_is_said_to_lack(few, evidence, tmp_path):
     with pytest.raises(NotMeasured, match="solutions"):
         Evidence(few, tmp_path).mapping("solutions")

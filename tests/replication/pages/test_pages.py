@@ -1,6 +1,7 @@
-"""The pages say what the findings say, also while the campaign is not complete."""
+"""Pages and article say what the findings say, also while the campaign is not complete."""
 
 import re
+import shutil
 from pathlib import Path
 
 import pandas as pd
@@ -48,16 +49,13 @@ def test_the_readme_is_read_in_three_minutes(contents, request):
     assert "\n\n\n" not in page
 
 
-def test_the_readme_has_eight_claims_with_number_and_verdict(complete):
+def test_the_readme_has_eight_claims_with_number_and_verdict(complete, capsys):
     table = rows(render("README.md", complete), "| The paper says | We find | Verdict |")
     by_claim = {claim.statement.claim: claim for claim in complete.claims.values()}
     assert len(table) == 8
     for says, found, verdict in table:
         assert verdict == by_claim[says].finding.verdict
         assert by_claim[says].value in found
-
-
-def test_the_example_of_the_readme_finds_the_errors_that_it_made(complete, capsys):
     (code,) = re.findall(r"```python\n(.*?)```", render("README.md", complete), re.DOTALL)
     assert len(code.splitlines()) <= 12
     exec(code, {})
@@ -201,14 +199,8 @@ def contents(study, project) -> Contents:
     errors, reached = benchmark(study)
     errors.to_csv(folder / "results" / "benchmark.csv", index=False)
     reached.to_csv(folder / "results" / "benchmark_moves.csv", index=False)
-    real = pd.DataFrame(
-        [
-            ("geometric", False, 10, 0.1624),
-            ("improved", True, 10, 1.286),
-            ("improved", True, 400, 0.2),
-        ],
-        columns=["learner", "twin", "poses", "position_error_mm"],
-    )
+    real = pd.DataFrame({"learner": ["geometric", "improved", "improved"], "poses": [10, 10, 400]})
+    real = real.assign(twin=[False, True, True], position_error_mm=[0.1624, 1.286, 0.2])
     real.to_csv(folder / "results" / "real.csv", index=False)
     return Contents(study, (), folder)
 
@@ -229,3 +221,37 @@ def test_a_learner_on_the_twin_has_a_row_of_its_own_and_its_last_error(contents)
     assert "| geometric | - | 0.162 | - |" in page
     assert "| improved on a twin | - | 1.286 | - |" in page
     assert "At the end of its 400 moves, *improved* has an error of 0.200 mm." in page
+
+
+EMPTY = '<svg xmlns="http://www.w3.org/2000/svg" width="400" height="200"></svg>'
+
+
+@pytest.fixture(scope="module")
+def article(study, project, tmp_path_factory) -> tuple[str, Contents]:
+    """The text of the PDF, with empty figures."""
+    pypdf = pytest.importorskip("pypdf")
+    pytest.importorskip("typst")
+    from replication.pages import typeset
+
+    folder = project(study, 30)
+    (folder / "figures").mkdir()
+    figures = [folder / "figures" / f"{figure.file}.svg" for figure in Figure]
+    for path in (*figures, folder / "figures" / "method.svg"):
+        path.write_text(EMPTY)
+    shutil.copytree(ROOT / "workflow" / "article", folder / "workflow" / "article")
+    write(study, [folder / "article.typ"], figures, folder)
+    typeset(folder / "article.typ", folder / "article.pdf", folder)
+    pages = pypdf.PdfReader(folder / "article.pdf").pages
+    text = " ".join(" ".join(page.extract_text() for page in pages).split())
+    return text.replace("’", "'"), Contents(study, figures, folder)
+
+
+def test_its_table_has_every_claim_its_abstract_the_verdicts_and_nothing_is_a_placeholder(article):
+    assert not re.search(r"TODO|\?\?|\bnan\b|None|undefined|\{\{|\{%", article[0])
+    text, contents = article
+    for claim in contents.claims.values():
+        assert " ".join(claim.statement.claim.split()[:4]) in text
+    abstract = text[text.index("Abstract.") : text.index("1 Introduction")]
+    for verdict, claims in contents.verdicts.items():
+        assert f"{len(claims)} {verdict}" in abstract
+    assert contents.claims["speed-up"].value in abstract

@@ -123,9 +123,7 @@ def test_it_writes_nothing_into_a_home(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(
-    not DRIVERS, reason="needs a Vulkan driver, for instance Debian's mesa-vulkan-drivers"
-)
+@pytest.mark.skipif(not DRIVERS, reason="needs a Vulkan driver: Debian's mesa-vulkan-drivers")
 def test_the_viewer_shows_the_arm_miss_and_hit(recording, tmp_path):
     before, after = tmp_path / "before.png", tmp_path / "after.png"
     take_pictures(recording, {before: BEFORE, after: ends(recording)[1]})
