@@ -51,10 +51,7 @@ SHARED = "figures", "rules"  # fixtures that one process makes for all
 def loaded_with(statement: str, heavy: set[str]) -> set[str]:
     """Which heavy packages a statement imports."""
     text = f"import sys; {statement}; print(*({heavy} & sys.modules.keys()))"
-    ran = subprocess.run(
-        [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, check=True
-    )
-    return set(ran.stdout.split())
+    return {*subprocess.check_output([sys.executable, "-c", text], cwd=ROOT, text=True).split()}
 
 
 def pytest_collection() -> None:

@@ -134,12 +134,8 @@ def test_an_arm_learns_in_the_browser_by_keyboard_on_a_narrow_screen(site, tmp_p
         elbow.send_keys(Keys.ARROW_RIGHT)
         assert elbow.get_attribute("ariaValueText") == "0.5°"
         browser.find_element(By.CSS_SELECTOR, "#try .paper").send_keys(Keys.SPACE)
-        before = [
-            float(number)
-            for number in re.findall(
-                r"[\d.]+", browser.find_element(By.CSS_SELECTOR, ".before").text
-            )
-        ]
+        told = browser.find_element(By.CSS_SELECTOR, ".before").text
+        before = [float(number) for number in re.findall(r"[\d.]+", told)]
         assert before == pytest.approx([8.3, 4.7, 0], rel=0.05), "section 7"
         browser.find_element(By.CSS_SELECTOR, "#try .learn").send_keys(Keys.ENTER)
         status = WebDriverWait(browser, PATIENCE).until(
