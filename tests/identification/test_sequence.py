@@ -7,12 +7,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
-from recalib.identification import calibrate
+from recalib.identification import calibrate, identify_by_consensus
 from recalib.identification.checks.outliers import displaced, exchanged
 from recalib.identification.checks.sequence import DRIFT, GROWTH, JUMP, LAG, faults
-from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.model import Frames, Optics
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model import ErrorModel, Frames, Optics
 from tests.conftest import few_folds
 from tests.identification.honesty import AROUND, MIDDLE, ROWS, Session, with_targets
 from tests.identification.real import NOISE, Real, geometry_of

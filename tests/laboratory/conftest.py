@@ -5,8 +5,7 @@ import csv
 import numpy as np
 import pytest
 
-from recalib import Chain, load_arm
-from recalib.laboratory.calibrate import Calibrated, calibrate_arm
+from recalib import Calibrated, Chain, calibrate_arm, load_arm
 from recalib.laboratory.command_line import DONE, main
 from tests.arms import urdf
 

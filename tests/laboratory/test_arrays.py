@@ -8,8 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from recalib import EncoderShift, LinkShortening, RecalibError, apply
-from recalib.laboratory.calibrate import calibrate
+from recalib import EncoderShift, LinkShortening, RecalibError, apply, calibrate
 from tests.laboratory.conftest import postures
 
 ROWS = 12

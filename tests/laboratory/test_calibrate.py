@@ -6,9 +6,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, InvalidSetting, load_correction, read_description
+from recalib import (
+    Calibrated,
+    InvalidFile,
+    InvalidSetting,
+    calibrate_arm,
+    load_correction,
+    read_description,
+)
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.plausibility.knowledge import WrongKnowledge
 from recalib.laboratory.propose import propose
 from recalib.laboratory.report.identified import identified_parameters

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from recalib import load_arm
-from recalib.laboratory.calibrate import calibrate, calibrate_arm
+from recalib import calibrate, calibrate_arm, load_arm
 from recalib.laboratory.command_line import DONE, main
 from tests.arms import urdf
 from tests.laboratory.conftest import read, write

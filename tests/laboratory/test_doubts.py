@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, Observations, load_arm
+from recalib import OFFSETS, Calibrated, Observations, calibrate_arm, load_arm
 from recalib.identification import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, WAYS, parameters_of
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.outliers import Displaced, Exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.model import ErrorModel, Frames
-from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import errors_table, summary

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, Calibration, Observations, initial_frames, load_arm
+from recalib import OFFSETS, Calibration, Observations, calibrate_arm, initial_frames, load_arm
 from recalib.files import write_new
 from recalib.identification import HYBRID, identify
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.model import ErrorModel, displacements
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.places import found_places
 from recalib.laboratory.report.folder import files_of
 from tests.arms import INDUSTRIAL

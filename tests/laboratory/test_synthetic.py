@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, load_arm, load_correction
-from recalib.laboratory.calibrate import calibrate, calibrate_arm
+from recalib import InvalidFile, calibrate, calibrate_arm, load_arm, load_correction
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report import folder as report

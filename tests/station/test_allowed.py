@@ -9,11 +9,11 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from recalib import InvalidSetting, StationFailed, load_arm, load_shapes
+from recalib import Answer, InvalidSetting, StationFailed, load_arm, load_shapes
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.clearance import MARGIN, Clearance
 from recalib.laboratory.live.command import ask_to_move
-from recalib.laboratory.live.session import Answer, Move
+from recalib.laboratory.live.session import Move
 from tests.station.conftest import MOST
 from tests.station.simulated import HOMES, URDFS, Simulated
 

@@ -12,19 +12,22 @@ import numpy as np
 import pytest
 
 from recalib import (
+    Answer,
     Description,
     InvalidFile,
     InvalidSetting,
+    LiveSettings,
     NotReached,
     Observations,
     StationFailed,
     UnknownName,
+    calibrate_arm,
+    calibrate_live,
 )
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.running import RunningCalibration
-from recalib.laboratory.live.session import Answer, Interrupted, LiveSettings, calibrate_live
+from recalib.laboratory.live.session import Interrupted
 from recalib.station import Guarded
 from tests.conftest import few_folds
 from tests.identification.real import anywhere

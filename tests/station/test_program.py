@@ -9,9 +9,16 @@ import time
 import numpy as np
 import pytest
 
-from recalib import ProgramStation, StationFailed, load_arm, load_correction
+from recalib import (
+    Answer,
+    LiveSettings,
+    ProgramStation,
+    StationFailed,
+    calibrate_live,
+    load_arm,
+    load_correction,
+)
 from recalib.laboratory.command_line import DONE, main
-from recalib.laboratory.live.session import Answer, LiveSettings, calibrate_live
 from recalib.station import open_station
 from tests.conftest import ROOT, few_folds
 

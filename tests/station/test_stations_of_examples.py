@@ -15,7 +15,7 @@ import rerun as rr
 from watched_pictures import ShownPictures
 
 from recalib import StationFailed
-from recalib.station.opening import open_station
+from recalib.station import open_station
 from recalib.vision.views import projected
 from tests.conftest import ROOT
 from tests.logged import logged

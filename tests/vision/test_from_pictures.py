@@ -13,14 +13,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, RecalibError, load_arm
+from recalib import InvalidFile, RecalibError, calibrate_arm, calibrate_pictures, load_arm
 from recalib.identification import WAYS
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures import observe as observing
 from recalib.laboratory.pictures.observe import observe
 from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.summary import verdict
 from recalib.vision.detection import Corners, find_corners

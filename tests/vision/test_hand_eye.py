@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.hand_eye import calibrate_hand_eye, held_out
-from recalib.identification.model.linearisation import displacements
+from recalib.identification.model import displacements
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.vision.views import projected

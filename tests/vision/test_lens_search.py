@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import load_arm
+from recalib import calibrate_pictures, load_arm
 from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import verdict
 from recalib.vision import lens_search

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidFile
+from recalib import InvalidFile
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import Unusable, find_corners
 from recalib.vision.views import board_pose, reprojection

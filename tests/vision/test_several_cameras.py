@@ -10,10 +10,9 @@ from shutil import copytree
 import numpy as np
 import pytest
 
-from recalib import RecalibError
+from recalib import RecalibError, calibrate_pictures
 from recalib.identification.model import displacements
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.summary import summary, verdict
 from recalib.vision.lenses import Lens, read_lens

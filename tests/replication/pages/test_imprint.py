@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from replication.pages.contents import Contents
+from replication.pages import Contents, render
 from replication.pages.imprint import Imprint, missing
-from replication.pages.writing import render
 from tests.conftest import ROOT
 
 ADDRESS = "https://example.org/somebody/recalib"
