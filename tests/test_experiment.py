@@ -148,7 +148,7 @@ def test_an_own_robot_measures_coordinates_and_stays_at_home_if_it_refuses(exter
     achieved, executed = external.execute(commands)
     assert executed.tolist() == [[True] * 3, [False, False, True]]
     assert not achieved[1, :2].any()
-    assert external.moves == 3 and external.refused.tolist() == [0, 2]
+    assert external.moves == 6 and external.refused.tolist() == [0, 2]
 
 
 def test_it_takes_the_place_of_a_plant(external):

@@ -127,13 +127,13 @@ def test_of_a_hundred_clean_arms_at_most_one_is_doubted(on_a_path, ur10):
     assert sum(bool(session.named()) for session in sessions) <= 1
 
 
-ROWS = 60
+COUNT = 60
 
 
 def measured(ur10, seed: int):
     """Joints and poses, and what may be drawn by chance."""
     random = np.random.default_rng([seed, 12])
-    joints = MIDDLE + random.uniform(-AROUND, AROUND, (ROWS, 6))
+    joints = MIDDLE + random.uniform(-AROUND, AROUND, (COUNT, 6))
     return joints, Real(ur10, seed).poses(joints), random
 
 
@@ -165,7 +165,7 @@ def test_rows_measured_from_elsewhere_are_named_with_the_motion(ur10, seed):
 @pytest.mark.parametrize("seed", range(6))
 def test_exchanged_rows_are_named_with_those_that_they_fit(ur10, seed):
     joints, poses, random = measured(ur10, seed)
-    rows = random.choice(ROWS, int(random.integers(2, 11)), replace=False)
+    rows = random.choice(COUNT, int(random.integers(2, 11)), replace=False)
     others = np.roll(rows, 1)
     poses[rows] = poses[others]
     geometry, seen = calibrated(ur10, joints, poses, seed)
@@ -177,7 +177,7 @@ def test_exchanged_rows_are_named_with_those_that_they_fit(ur10, seed):
 def test_outliers_by_chance_have_no_cause(ur10, seed):
     """One after the other in half of the tables."""
     joints, poses, random = measured(ur10, seed)
-    rows = slice(20, 26) if seed < 3 else random.choice(ROWS, 6, replace=False)
+    rows = slice(20, 26) if seed < 3 else random.choice(COUNT, 6, replace=False)
     poses[rows, :3, 3] += random.normal(0, 0.01, (6, 3))
     geometry, seen = calibrated(ur10, joints, poses, seed)
     assert displaced(geometry, seen) == [] and exchanged(geometry, seen) is None
