@@ -13,7 +13,7 @@ BRIEFLY = --quiet rules reason host progress
 RECORDINGS = $(RESULTS)/recordings
 RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
-PICTURED = $(or $(SCENARIO),links_encoders)
+FILMED = $(or $(SCENARIO),links_encoders)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
 PYTEST = .venv/bin/python -m pytest
@@ -23,7 +23,7 @@ LOCK = .venv/bin/uv pip compile pyproject.toml --universal --generate-hashes --n
 export PYTHONDONTWRITEBYTECODE =
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults mutants peers witness check bench latency article archive reproduce docs pictures view web notebook tune design campaign ship lock clean
+.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults mutants peers witness check bench latency article archive reproduce docs film view web notebook tune design campaign ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE) $(BRIEFLY)
@@ -134,9 +134,9 @@ docs: tools ## these pages and a reference as a site, results/site/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/python -m mkdocs build --quiet --strict
 	@echo "the site: results/site/index.html"
 
-pictures: setup ## pictures before and after, and a film; SCENARIO=NAME for another one; needs a Vulkan driver such as mesa-vulkan-drivers
-	$(SNAKEMAKE) --forcerun before_and_after film -- $(addprefix $(RESULTS)/figures/$(PICTURED),_before.png .webp)
-	$(if $(SCENARIO)$(filter-out replication,$(STUDY)),,for part in _before.png _after.png .webp; do cp results/figures/$(PICTURED)$$part figures/arm$$part; done)
+film: setup ## film a recording; SCENARIO=NAME for another one; needs a Vulkan driver such as mesa-vulkan-drivers
+	$(SNAKEMAKE) --forcerun film -- $(RESULTS)/figures/$(FILMED).webp
+	$(if $(SCENARIO)$(filter-out replication,$(STUDY)),,cp results/figures/$(FILMED).webp figures/arm.webp)
 
 view: setup ## open a recording; make view SCENARIO=links or STUDY=ur3 opens another one
 	$(NO_SUCH)
@@ -145,10 +145,11 @@ view: setup ## open a recording; make view SCENARIO=links or STUDY=ur3 opens ano
 	CI=true .venv/bin/rerun --bind 127.0.0.1 --new $(RECORDING) \
 	  || { echo "No display for a window here? make web shows the same in a browser."; exit 1; }
 
-web: setup ## show recordings in a browser, also from a server; SCENARIO and STUDY as for make view
+web: setup ## show a recording in a browser, also from a server; SCENARIO and STUDY as for make view
 	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
-	.venv/bin/python -m replication.recording.watch $(RESULTS) --port $(PORT)
+	.venv/bin/python -m replication.recording.web_viewer $(RECORDING) $(RESULTS)/web
+	.venv/bin/python -m http.server --bind 127.0.0.1 --directory $(RESULTS)/web $(PORT)
 
 notebook: .venv/extras ## damage an arm with sliders, in a browser
 	MARIMO_SKIP_UPDATE_CHECK=1 .venv/bin/marimo run --host 127.0.0.1 --port $(PORT) examples/notebook.py

@@ -11,10 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from ruamel.yaml import YAML
-from ruamel.yaml.comments import CommentedKeyMap, CommentedKeySeq, CommentedMap, CommentedSeq
-from ruamel.yaml.constructor import RoundTripConstructor
+from ruamel.yaml.constructor import SafeConstructor
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
-from ruamel.yaml.nodes import Node
+from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from replication.config.messages import InvalidConfiguration, KeyPath
 
@@ -97,74 +96,56 @@ def from_file(path: str | PathLike[str]) -> Placed:
 
 @cache  # several studies begin with one file
 def _parsed(name: str, text: str) -> Placed:
-    reader = YAML()  # of YAML 1.2; it refuses a key that stands twice
+    reader = YAML(typ="safe", pure=True)  # of YAML 1.2
     reader.Constructor = _Constructor
     start = (name, 1, 1)
-    value = _with_places(reader.load(text), start)
+    value = _with_places(reader.compose(text), reader.constructor, start)
     if not isinstance(value.content, dict) or not value.content:
         problem = f"{shown(start)}: no configuration; expected: keys with their values"
         raise InvalidConfiguration([problem])
     return value
 
 
-class _Constructor(RoundTripConstructor):
-    """Ruamel's, for which a date is text, and which names a key that stands twice."""
-
-    def check_mapping_key(
-        self, node: Node, key_node: Node, mapping: Mapping[Any, Any], key: Any, value: Any
-    ) -> bool:
-        """Raises MarkedYAMLError: the mapping has the key."""
-        if key in mapping:
-            raise MarkedYAMLError(problem=f"{key} stands twice", problem_mark=key_node.start_mark)
-        return True
+class _Constructor(SafeConstructor):
+    """Ruamel's, for which a date is text."""
 
 
-_Constructor.add_constructor(
-    "tag:yaml.org,2002:timestamp", lambda reader, node: reader.construct_scalar(node)
-)
+_Constructor.add_constructor("tag:yaml.org,2002:timestamp", SafeConstructor.construct_scalar)
 
 
-def _with_places(value: Any, place: Place) -> Placed:
-    """What ruamel read, with the places that it keeps beside."""
+def _with_places(node: Node | None, reader: SafeConstructor, place: Place) -> Placed:
+    """The values of a node. Raises MarkedYAMLError for a key that stands twice or is no text."""
     content: Any
-    match value:
-        case CommentedMap():
-            content = {}
-            for key, part in value.items():
-                at = _of_key(value, key, place)
-                if isinstance(key, CommentedKeySeq | CommentedKeyMap):
-                    raise InvalidConfiguration([f"{shown(at)}: no YAML: a key that is no text"])
-                content[str(key)] = _with_places(part, at)
-        case CommentedSeq():
-            content = [
-                _with_places(part, _from(place, *value.lc.item(index)))
-                for index, part in enumerate(value)
-            ]
-        case bool() | None:
-            content = value
-        case int():
-            content = int(value)
-        case float():
-            content = float(value)
-        case str():
-            content = str(value)
+    match node:
+        case MappingNode():
+            # an alias is met again, with what was merged in front
+            own = [key for key, _ in node.value[len(node.merge or ()) :]]
+            for index, key in enumerate(own):
+                if key.value in [other.value for other in own[:index]]:
+                    raise _mistaken(f"{key.value} stands twice", key)
+            reader.flatten_mapping(node)  # what << merges comes first
+            for key, _ in node.value:
+                if not isinstance(key, ScalarNode):
+                    raise _mistaken("a key that is no text", key)
+            content = {
+                key.value: _with_places(part, reader, _place(key, place))
+                for key, part in node.value
+            }
+        case SequenceNode():
+            content = [_with_places(part, reader, _place(part, place)) for part in node.value]
+        case ScalarNode() if node.tag not in reader.yaml_constructors:
+            raise InvalidConfiguration([f"{shown(place)}: no YAML: the tag {node.tag}"])
         case _:
-            raise InvalidConfiguration([f"{shown(place)}: no YAML: the tag {value.tag.value}"])
+            content = reader.construct_object(node) if node else None
     return Placed(content, place)
 
 
-def _of_key(mapping: CommentedMap, key: str, place: Place) -> Place:
-    """Where a key stands, itself or in what is merged by <<."""
-    if key in (mapping.lc.data or ()):
-        return _from(place, *mapping.lc.key(key))
-    for merged in mapping.merge.value or ():
-        if key in merged:
-            return _of_key(merged, key, place)
-    return place
+def _mistaken(problem: str, node: Node) -> MarkedYAMLError:
+    return MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 
-def _from(place: Place, line: int, column: int) -> Place:
-    return place[0], line + 1, column + 1
+def _place(node: Node, within: Place) -> Place:
+    return within[0], node.start_mark.line + 1, node.start_mark.column + 1
 
 
 def _unreadable(name: str, error: MarkedYAMLError) -> str:

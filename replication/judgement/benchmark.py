@@ -1,4 +1,4 @@
-"""Tables of the benchmark and of the real arm: errors, moves to each threshold, seconds."""
+"""Tables of the benchmark and of the real arm: errors, and moves to each threshold."""
 
 from collections.abc import Iterator, Sequence
 from itertools import product
@@ -9,14 +9,13 @@ import pandas as pd
 
 from replication.config.study import Benchmark, Study
 from replication.judgement.summary import cells_of_mean
-from replication.training.competitors import needs_of
 from replication.training.measured import BOTH, ERRORS
 
 
 def put_together(study: Study, histories: Sequence[Path]) -> tuple[pd.DataFrame, ...]:
-    """The benchmark's three tables, from files of histories: `errors`, `reached`, `seconds`."""
+    """The benchmark's two tables, from files of histories: `errors` and `reached`."""
     history = pd.concat(map(pd.read_parquet, histories))
-    return errors(study.benchmark, history), reached(study.benchmark, history), seconds(history)
+    return errors(study.benchmark, history), reached(study.benchmark, history)
 
 
 def _entrants(plan: Benchmark, history: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
@@ -46,7 +45,7 @@ def reached(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
             low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
             about = {"scenario": scenario, "learner": learner, "error": error}
             its = {"threshold": threshold, "moves": median, "low": low, "high": high}
-            rows.append(about | its | {"needs": needs_of(learner)})
+            rows.append(about | its)
     return pd.DataFrame(rows)
 
 
@@ -62,11 +61,6 @@ def moves_to_reach(history: pd.DataFrame, errors: Sequence[str], threshold: floa
         .reindex(np.sort(history["seed"].unique()), fill_value=np.inf)
         .to_numpy()
     )
-
-
-def seconds(history: pd.DataFrame) -> pd.DataFrame:
-    """Mean computing time of a move. It differs from run to run, and has a file of its own."""
-    return history.groupby("learner", sort=False)["seconds_per_move"].mean().reset_index()
 
 
 def real_errors(runs: Sequence[Path]) -> pd.DataFrame:

@@ -12,7 +12,7 @@ import mimetypes
 import subprocess
 import sys
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -26,7 +26,6 @@ from rocrate.rocrate import ROCrate
 import recalib
 from recalib.files.storage import whole
 from replication.config import shipped
-from replication.judgement.findings import Finding, Number, read_findings
 from replication.plots.figures import Figure
 
 RESULTS, PUBLISHED = Path(shipped.RESULTS), Path("published")  # here, and in the archive
@@ -34,7 +33,6 @@ NOTES = Path(".snakemake/metadata")  # what Snakemake knows of each file that it
 CHOSEN = (
     "summary.csv",
     "claims.json",
-    "claims.jsonld",
     "SHA256SUMS",
     "check.txt",
     "article.pdf",
@@ -53,7 +51,6 @@ PROFILES = {
     "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
 }
 LICENCE = "https://spdx.org/licenses/MIT"
-SNAKEMAKE = "https://w3id.org/workflowhub/workflow-ro-crate#snakemake"
 MOMENT = (1980, 1, 1, 0, 0, 0)  # of all files in the archive
 
 
@@ -84,38 +81,6 @@ def notes() -> Iterator[tuple[Path, Mapping[str, Any]]]:
         yield Path(name), json.loads(path.read_text(encoding="utf-8"))
 
 
-def as_linked_data(findings: Iterable[Finding], paper: Mapping[str, Any]) -> dict[str, Any]:
-    """Each finding as a review of a sentence of the paper, in the words of schema.org."""
-    article = {"@type": "ScholarlyArticle", "name": paper["title"]}
-    return {
-        "@context": "https://schema.org",
-        "@graph": [
-            {
-                "@type": "ClaimReview",
-                "@id": f"#{finding.id}",
-                "claimReviewed": finding.claim,
-                "itemReviewed": {
-                    "@type": "Claim",
-                    "text": finding.statement,
-                    "appearance": article | {"pagination": f"section {finding.section}"},
-                },
-                "reviewAspect": finding.criterion,
-                "reviewRating": {"@type": "Rating", "alternateName": str(finding.verdict)},
-                "additionalProperty": [_property(number) for number in finding.estimates],
-            }
-            for finding in findings
-        ],
-    }
-
-
-def _property(number: Number) -> dict[str, Any]:
-    name = f"{number.name} ({number.system})"
-    found = {"@type": "PropertyValue", "name": name, "value": number.value}
-    if number.interval:
-        found |= dict(zip(("minValue", "maxValue"), number.interval, strict=True))
-    return found
-
-
 def _moment(seconds: float) -> str:
     return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
 
@@ -137,22 +102,14 @@ def crate(citation: Mapping[str, Any]) -> ROCrate:
         its.add(Person(its, f"#{it['name']}", {"name": it["name"]})) for it in citation["authors"]
     ]
     its.root_dataset["author"] = authors
-    language = {
-        "@type": "ComputerLanguage",
-        "name": "Snakemake",
-        "url": "https://snakemake.github.io",
-        "version": version("snakemake"),
-    }
-    workflow = its.add(
-        ComputationalWorkflow(
-            its,
-            "Snakefile",
-            "Snakefile",
-            properties={"name": "The replication", "license": LICENCE},
-        )
+    workflow = its.add_workflow(
+        "Snakefile",
+        "Snakefile",
+        properties={"name": "The replication", "license": LICENCE},
+        main=True,
+        lang="snakemake",
+        lang_version=version("snakemake"),
     )
-    workflow["programmingLanguage"] = its.add(ContextEntity(its, SNAKEMAKE, language))
-    its.mainEntity = workflow
     code = {path: path for path in committed() if path != Path("Snakefile")}
     results = {path: PUBLISHED / path.relative_to(RESULTS) for path in chosen()}
     for path, place in (code | results).items():
@@ -171,13 +128,12 @@ def _add_run(
 ) -> None:
     """An action for the whole run, and one for each job whose results are kept."""
     noted = [(path, note) for path, note in notes() if path in results and note["endtime"]]
-    whole_run = {"@type": "CreateAction", "name": "A run of the workflow", "instrument": workflow}
-    whole_run["agent"] = authors
+    about = {"name": "A run of the workflow", "agent": authors}
     if noted:
-        whole_run["startTime"] = _moment(min(note["starttime"] for _, note in noted))
-        whole_run["endTime"] = _moment(max(note["endtime"] for _, note in noted))
-    whole_run["result"] = [its.dereference(place.as_posix()) for place in results.values()]
-    actions = [its.add(ContextEntity(its, "#run", whole_run))]
+        about["startTime"] = _moment(min(note["starttime"] for _, note in noted))
+        about["endTime"] = _moment(max(note["endtime"] for _, note in noted))
+    made = [its.dereference(place.as_posix()) for place in results.values()]
+    actions = [its.add_action(workflow, "#run", result=made, properties=about)]
     tools = {}
     for path, note in noted:
         if (rule := note["rule"]) not in tools:
@@ -185,16 +141,18 @@ def _add_run(
             tool["version"] = recalib.__version__
             tools[rule] = its.add(ContextEntity(its, f"#rule-{rule}", tool))
         read = [results.get(Path(name), Path(name)).as_posix() for name in note["input"]]
-        job = {
-            "@type": "CreateAction",
-            "name": f"{rule}: {path.as_posix()}",
-            "instrument": tools[rule],
-            "object": [entity for name in read if (entity := its.dereference(name))],
-            "result": its.dereference(results[path].as_posix()),
-            "startTime": _moment(note["starttime"]),
-            "endTime": _moment(note["endtime"]),
-        }
-        actions.append(its.add(ContextEntity(its, f"#job-{path.as_posix()}", job)))
+        job = its.add_action(
+            tools[rule],
+            f"#job-{path.as_posix()}",
+            object=[entity for name in read if (entity := its.dereference(name))],
+            result=its.dereference(results[path].as_posix()),
+            properties={
+                "name": f"{rule}: {path.as_posix()}",
+                "startTime": _moment(note["starttime"]),
+                "endTime": _moment(note["endtime"]),
+            },
+        )
+        actions.append(job)
     its.root_dataset["mentions"] = actions
     last = max((note["endtime"] for _, note in noted), default=0)
     its.datePublished = datetime.fromtimestamp(last, UTC)
@@ -203,14 +161,8 @@ def _add_run(
 def pack(archive: Path) -> None:
     """Write the archive."""
     citation = yaml.safe_load(Path("CITATION.cff").read_text(encoding="utf-8"))
-    findings = read_findings(RESULTS / "claims.json").values()
-    linked = as_linked_data(findings, citation["references"][0])
-    for name, text in (
-        ("claims.jsonld", json.dumps(linked, indent=1) + "\n"),
-        ("SHA256SUMS", checksums()),
-    ):
-        with whole(RESULTS / name) as path:
-            path.write_text(text, encoding="utf-8")
+    with whole(RESULTS / "SHA256SUMS") as path:
+        path.write_text(checksums(), encoding="utf-8")
     its, top = crate(citation), f"recalib-{recalib.__version__}"
     with whole(archive) as path, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
         text = json.dumps(its.metadata.generate(), indent=1) + "\n"

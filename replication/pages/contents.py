@@ -312,13 +312,5 @@ def _pair(row: Mapping[str, Any], moment: str) -> str:
 
 def _words(entry: Mapping[str, Any]) -> str:
     """A damage in the words of the configuration."""
-    return ", ".join(f"{key} {_text(value)}" for key, value in entry.items())
-
-
-def _text(value: Any) -> str:
-    match value:
-        case Mapping():
-            return _words(value)
-        case list():
-            return " ".join(map(str, value))
-    return str(value)
+    texts = {key: " ".join(its) if isinstance(its, list) else its for key, its in entry.items()}
+    return ", ".join(f"{key} {text}" for key, text in texts.items())

@@ -16,11 +16,7 @@ NEGLIGIBLE = 1e-4  # cm and degrees: below it, errors are rounding
 FIRST = 4  # moves from which the hybrid is held to be as good as the best peer
 
 
-class Row(NamedTuple):
-    """A row of a page's table."""
-
-    label: str
-    cells: tuple[str, ...]
+Table = dict[str, list[str]]  # of a page: a row's cells by its name
 
 
 class Worse(NamedTuple):
@@ -57,15 +53,12 @@ class Benchmark:
         self.seeds = int(errors["seeds"].max())
 
     @property
-    def moves(self) -> list[Row]:
+    def moves(self) -> Table:
         """Moves that each learner needs: a row for each scenario, a cell for each learner."""
-        return [
-            Row(
-                scenario.replace("_", " "),
-                tuple(_moves(self._reached.loc[(scenario, name)]) for name in self.learners),
-            )
+        return {
+            words(scenario): [_moves(self._reached.loc[scenario, name]) for name in self.learners]
             for scenario in self.errors["scenario"].unique()
-        ]
+        }
 
     @property
     def worse(self) -> list[Worse]:
@@ -80,9 +73,15 @@ class Benchmark:
             for error, kind in zip(ERRORS, KINDS, strict=True):
                 best = others[same][error].min()
                 if row[error] > max(WORSE * best, NEGLIGIBLE):
-                    place = row["scenario"].replace("_", " "), row["moves"], kind
-                    found.append(Worse(*place, row[error] / best))
+                    found.append(
+                        Worse(words(row["scenario"]), row["moves"], kind, row[error] / best)
+                    )
         return found
+
+
+def words(scenario: str) -> str:
+    """A scenario's name for people."""
+    return scenario.replace("_", " ")
 
 
 def _moves(reached: pd.Series) -> str:
@@ -95,33 +94,29 @@ def _moves(reached: pd.Series) -> str:
     return f"{short(median)} ({short(low)} to {short(high) if np.isfinite(high) else 'more'})"
 
 
-def on_real_arm(table: pd.DataFrame, poses: Sequence[int]) -> list[Row]:
+def on_real_arm(table: pd.DataFrame, poses: Sequence[int]) -> Table:
     """Mean position errors [mm]: a row for each learner, a cell for each number of poses.
 
     Args:
         table: a row for each learner and number of poses, or of moves on the twin.
     """
-    errors = table.pivot(index=["learner", "twin"], columns="poses", values="position_error_mm")
-    names = table[["learner", "twin"]].drop_duplicates().itertuples(index=False)
-    return [
-        Row(
-            label_of(learner) + (" on a twin" if twin else ""),
-            tuple(
-                f"{errors.loc[(learner, twin), count]:.3f}" if known else "-"
-                for count, known in errors.reindex(columns=poses)
-                .loc[(learner, twin)]
-                .notna()
-                .items()
-            ),
-        )
-        for learner, twin in names
-    ]
+    named = table.assign(label=[*map(_named, table["learner"], table["twin"])])
+    errors = named.pivot(index="label", columns="poses", values="position_error_mm")
+    shown = errors.reindex(named["label"].unique(), columns=poses)
+    return {
+        str(label): ["-" if np.isnan(error) else f"{error:.3f}" for error in row]
+        for label, row in zip(shown.index, shown.to_numpy(), strict=True)
+    }
 
 
-def ends_on_twin(table: pd.DataFrame) -> list[Row]:
+def _named(learner: str, twin: bool) -> str:
+    return label_of(learner) + (" on a twin" if twin else "")
+
+
+def ends_on_twin(table: pd.DataFrame) -> Table:
     """Of each learner on the twin, the number of its moves and its last error [mm]."""
     last = table[table["twin"]].sort_values("poses").groupby("learner", sort=False).last()
-    return [
-        Row(label_of(str(learner)), (short(its["poses"]), f"{its['position_error_mm']:.3f}"))
+    return {
+        label_of(str(learner)): [short(its["poses"]), f"{its['position_error_mm']:.3f}"]
         for learner, its in last.iterrows()
-    ]
+    }

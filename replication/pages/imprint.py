@@ -67,20 +67,12 @@ def _expected(imprint: Imprint) -> dict[str, Any]:
 def _elsewhere(project: Path) -> dict[str, dict[str, Any]]:
     """The same fields in the files that archives and catalogues read."""
     citation = yaml.safe_load((project / "CITATION.cff").read_text(encoding="utf-8"))
-    codemeta, zenodo = (
-        json.loads((project / name).read_text(encoding="utf-8"))
-        for name in ("codemeta.json", ".zenodo.json")
-    )
+    zenodo = json.loads((project / ".zenodo.json").read_text(encoding="utf-8"))
     return {
         "CITATION.cff": {
             "version": citation["version"],
             "authors": [_name(its) for its in citation["authors"]],
             "repository": citation.get("repository-code", ""),
-        },
-        "codemeta.json": {
-            "version": codemeta["version"],
-            "authors": [_name(its) for its in codemeta["author"]],
-            "repository": codemeta.get("codeRepository", ""),
         },
         ".zenodo.json": {
             "version": zenodo["version"],
@@ -90,13 +82,10 @@ def _elsewhere(project: Path) -> dict[str, dict[str, Any]]:
 
 
 def _name(author: dict[str, str]) -> str:
-    """Of a person or a group, in the words of CITATION.cff, CodeMeta or Zenodo."""
-    given = author.get("given-names", author.get("givenName"))
-    family = author.get("family-names", author.get("familyName"))
-    if given and family:
-        return f"{given} {family}"
-    name = author["name"]
-    return " ".join(reversed(name.split(", ")))  # Zenodo: "Family, Given"
+    """Of a person or a group, in the words of CITATION.cff or of Zenodo: "Family, Given"."""
+    if "given-names" in author:
+        return f"{author['given-names']} {author['family-names']}"
+    return " ".join(reversed(author["name"].split(", ")))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,10 @@
-"""Writes the pages of a study from their templates: no measured number in them is typed."""
+"""Writes the pages of a study from their templates, and publishes those of the shipped one.
+
+No measured number in them is typed.
+"""
 
 import re
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -34,6 +38,13 @@ def write(
         text = render(path.name, contents)
         with whole(path) as temporary:
             temporary.write_text(text, encoding="utf-8")
+
+
+def publish(sources: Sequence[Path], copies: Sequence[Path]) -> None:
+    """Copy files to where they are committed, each whole or not at all: none ever disappears."""
+    for source, copy in zip(sources, copies, strict=True):
+        with whole(copy) as temporary:
+            shutil.copyfile(source, temporary)
 
 
 def render(page: str, contents: Contents) -> str:

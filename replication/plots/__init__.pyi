@@ -6,7 +6,6 @@ from .drawing import drawn as drawn
 from .figures import APART as APART
 from .figures import Figure as Figure
 from .figures import figures_of as figures_of
-from .learning import leading as leading
 from .palette import BOTH as BOTH
 from .palette import FAILS as FAILS
 from .palette import HOLDS as HOLDS

@@ -15,7 +15,7 @@ from replication.plots.style import STYLE, save
 
 def drawn(figure: Figure, evidence: Evidence) -> matplotlib.figure.Figure:
     """A figure of a study's results. Raises NotMeasured."""
-    found: matplotlib.figure.Figure = resolve_name(f"replication.plots.{figure.value}")(evidence)
+    found: matplotlib.figure.Figure = resolve_name(f"replication.plots.{figure.function}")(evidence)
     return found
 
 

@@ -9,31 +9,100 @@ from replication.config.study import Study
 
 
 class Figure(Enum):
-    """A figure, by the module and the function that draw it; numbered in this order."""
+    """A figure; numbered in this order.
 
-    FIGURE_1 = "learning:figure_1"  # the paper's only one
-    STEPS = "steps:steps"
-    CONTRASTS = "contrasts:contrasts"
-    LEARNERS = "learning:learners"
-    SCENARIOS = "learning:scenarios"
-    AMOUNTS = "damages:amounts"
-    MAPPING = "mapping:mapping"
-    BENCHMARK = "benchmark:benchmark"
-    REAL_ARM = "benchmark:real_arm"
+    Attributes:
+        function: the module and the function that draw it.
+        title: what it shows, in a line: for those who do not see it, too.
+    """
+
+    FIGURE_1 = (
+        "learning:figure_1",
+        "Both errors fall during learning.",
+        "Mean errors over {study.training.tests} held-out poses against iterations of two moves"
+        " each: means (lines) and 5 to 95 % (bands) of {study.training.seeds} seeds. Right: the"
+        " same on a logarithmic scale.",
+    )
+    STEPS = (
+        "steps:steps",
+        "Which step saves how many iterations.",
+        "The reference study. Top: the larger remaining share of the two errors, against the"
+        " number of iterations for which a system is tuned; the horizontal line is the improved"
+        " system's share after {study.experiments.iterations} iterations. Bottom: iterations after"
+        " which each system reaches this line, and their ratio to {study.experiments.iterations}."
+        " Ritter's map has as many cells as both new maps together, or half as many; + means: two"
+        " maps with this change. A last row shows the number in all setups, once enough are"
+        " measured (triangle: a lower bound), and their mean (diamond) with its 95 % interval"
+        " (thick) and that for one more study (thin).",
+    )
+    CONTRASTS = (
+        "contrasts:contrasts",
+        "The number behind each claim, in every setup.",
+        "Top: the error of the first variant divided by the error of the second. Bottom: the larger"
+        " remaining share of the two errors. Dots: setups; diamond: their mean, with its 95 %"
+        " interval (thick) and that for one more study (thin). The paper is right on the shaded"
+        " side; between the dotted lines errors differ by less than 10 %. Seven rows concern"
+        " Ritter's framework (section 4), the next five the improved system. Drastic change: the"
+        " advantage of increments there, divided by their advantage with the paper's damage.",
+    )
+    LEARNERS = (
+        "learning:learners",
+        "The learners on the paper's damage.",
+        "Mean errors over {study.training.tests} held-out poses: means (lines) and 5 to 95 %"
+        " (bands) of {study.training.seeds} seeds. Each training is tuned for its last iteration."
+        " Horizontal line: the final error of Figure 1.",
+    )
+    SCENARIOS = (
+        "learning:scenarios",
+        "Both errors before and after learning, for each damage and robot.",
+        "Means over {study.training.seeds} seeds; lines: 5 to 95 % of them. Errors below 0.001 are"
+        " drawn at 0.001. Other robots are trained with the settings of the study's robot.",
+    )
+    AMOUNTS = (
+        "learning:amounts",
+        "Slighter and greater damages.",
+        "Errors of the improved system before and after {study.experiments.iterations} iterations,"
+        " against the size of the damage (1: the paper's, for which the system is tuned). Lines:"
+        " medians over random assignments to links and encoders; bands: 5 to 95 % of them.",
+    )
+    MAPPING = (
+        "mapping:mapping",
+        "The damage and the mapping, before any learning.",
+        "Initial errors (section 7): every assignment of the paper's damage to links, encoders and"
+        " signs; cross: published; circle: used here. Coupling (4): norm of off-diagonal over"
+        " diagonal blocks of the mapping's Jacobian at 95 % of the poses of each setup; line: the"
+        " criterion. What to propagate (5): below 1, the new mapping is nearer to the old one plus"
+        " a constant than to a constant; medians over {study.mapping.balls} regions. Expected"
+        " learning (6): simulation over equation (10), against the distance of a cell from the"
+        " border of the workspace; line: the criterion.",
+    )
+    BENCHMARK = (
+        "benchmark:benchmark",
+        "Learners of 1996 and of today, against robot moves.",
+        "Means over {study.benchmark.seeds} seeds; bands: 95 % intervals. An iteration of the"
+        " paper's learners takes two moves. Errors below 1 micrometre are drawn at 1 micrometre."
+        " The thick line of the geometric learner lies under the line of the hybrid one.",
+    )
+    REAL_ARM = (
+        "benchmark:real_arm",
+        "Learners on a real arm.",
+        "Mean position error on held-out poses, measured by laser tracker, against the number of"
+        " training poses. Means over {study.real.subsets} random subsets; bands: 95 % intervals."
+        " The paper's learners choose their poses, so they train on a simulated twin of the arm,"
+        " identified from all poses. Horizontal line: the error published with the data.",
+    )
+
+    def __init__(self, function: str, title: str, caption: str):
+        self.function, self.title, self._caption = function, title, caption
 
     @property
     def number(self) -> int:
         """By which pages call it."""
         return [*Figure].index(self) + 1
 
-    @property
-    def title(self) -> str:
-        """What it shows, in a line: for those who do not see it, too."""
-        return TITLES[self]
-
     def caption(self, study: Study) -> str:
         """What its signs mean."""
-        return CAPTIONS[self].format(study=study)
+        return self._caption.format(study=study)
 
     @property
     def file(self) -> str:
@@ -42,77 +111,6 @@ class Figure(Enum):
 
 
 APART = Figure.BENCHMARK, Figure.REAL_ARM  # of targets of their own
-
-TITLES = {
-    Figure.FIGURE_1: "Both errors fall during learning.",
-    Figure.STEPS: "Which step saves how many iterations.",
-    Figure.CONTRASTS: "The number behind each claim, in every setup.",
-    Figure.LEARNERS: "The learners on the paper's damage.",
-    Figure.SCENARIOS: "Both errors before and after learning, for each damage and robot.",
-    Figure.AMOUNTS: "Slighter and greater damages.",
-    Figure.MAPPING: "The damage and the mapping, before any learning.",
-    Figure.BENCHMARK: "Learners of 1996 and of today, against robot moves.",
-    Figure.REAL_ARM: "Learners on a real arm.",
-}
-CAPTIONS = {
-    Figure.FIGURE_1: (
-        "Mean errors over {study.training.tests} held-out poses against iterations of two moves"
-        " each: means (lines) and 5 to 95 % (bands) of {study.training.seeds} seeds. Right: the"
-        " same on a logarithmic scale."
-    ),
-    Figure.STEPS: (
-        "The reference study. Top: the larger remaining share of the two errors, against the"
-        " number of iterations for which a system is tuned; the horizontal line is the improved"
-        " system's share after {study.experiments.iterations} iterations. Bottom: iterations after"
-        " which each system reaches this line, and their ratio to {study.experiments.iterations}."
-        " Ritter's map has as many cells as both new maps together, or half as many; + means: two"
-        " maps with this change. A last row shows the number in all setups, once enough are"
-        " measured (triangle: a lower bound), and their mean (diamond) with its 95 % interval"
-        " (thick) and that for one more study (thin)."
-    ),
-    Figure.CONTRASTS: (
-        "Top: the error of the first variant divided by the error of the second. Bottom: the larger"
-        " remaining share of the two errors. Dots: setups; diamond: their mean, with its 95 %"
-        " interval (thick) and that for one more study (thin). The paper is right on the shaded"
-        " side; between the dotted lines errors differ by less than 10 %. Seven rows concern"
-        " Ritter's framework (section 4), the next five the improved system. Drastic change: the"
-        " advantage of increments there, divided by their advantage with the paper's damage."
-    ),
-    Figure.LEARNERS: (
-        "Mean errors over {study.training.tests} held-out poses: means (lines) and 5 to 95 %"
-        " (bands) of {study.training.seeds} seeds. Each training is tuned for its last iteration."
-        " Horizontal line: the final error of Figure 1."
-    ),
-    Figure.SCENARIOS: (
-        "Means over {study.training.seeds} seeds; lines: 5 to 95 % of them. Errors below 0.001 are"
-        " drawn at 0.001. Other robots are trained with the settings of the study's robot."
-    ),
-    Figure.AMOUNTS: (
-        "Errors of the improved system before and after {study.experiments.iterations} iterations,"
-        " against the size of the damage (1: the paper's, for which the system is tuned). Lines:"
-        " medians over random assignments to links and encoders; bands: 5 to 95 % of them."
-    ),
-    Figure.MAPPING: (
-        "Initial errors (section 7): every assignment of the paper's damage to links, encoders and"
-        " signs; cross: published; circle: used here. Coupling (4): norm of off-diagonal over"
-        " diagonal blocks of the mapping's Jacobian at 95 % of the poses of each setup; line: the"
-        " criterion. What to propagate (5): below 1, the new mapping is nearer to the old one plus"
-        " a constant than to a constant; medians over {study.mapping.balls} regions. Expected"
-        " learning (6): simulation over equation (10), against the distance of a cell from the"
-        " border of the workspace; line: the criterion."
-    ),
-    Figure.BENCHMARK: (
-        "Means over {study.benchmark.seeds} seeds; bands: 95 % intervals. An iteration of the"
-        " paper's learners takes two moves. Errors below 1 micrometre are drawn at 1 micrometre."
-        " The thick line of the geometric learner lies under the line of the hybrid one."
-    ),
-    Figure.REAL_ARM: (
-        "Mean position error on held-out poses, measured by laser tracker, against the number of"
-        " training poses. Means over {study.real.subsets} random subsets; bands: 95 % intervals."
-        " The paper's learners choose their poses, so they train on a simulated twin of the arm,"
-        " identified from all poses. Horizontal line: the error published with the data."
-    ),
-}
 
 
 def figures_of(study: Study) -> list[str]:

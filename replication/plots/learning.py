@@ -1,7 +1,6 @@
-"""Figures of learning: how both errors fall, and what remains of them in every scenario."""
+"""Figures of learning: how both errors fall, and what remains by scenario and size of damage."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,8 +8,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from replication.config.study import Study
-from replication.config.switches import IMPROVED
 from replication.judgement.evidence import Evidence
 from replication.plots.palette import BOTH, GREY, ErrorStyle, Training, styles_of_trainings
 from replication.plots.style import (
@@ -25,33 +22,11 @@ from replication.plots.style import (
     words,
 )
 from replication.training.measured import ERRORS
-from replication.training.plan import Place, places
+from replication.training.plan import Place, leading, places
 
 NEAR = 1.4  # times: two numbers beside an axis that would stand on each other
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 MOVES = "iterations (two moves each)"
-
-
-class Run(NamedTuple):
-    """A learner in a scenario of the study's robot, trained for so many iterations."""
-
-    learner: str
-    iterations: int
-    scenario: str
-
-    def history(self, evidence: Evidence) -> pd.DataFrame:
-        """Its measurements."""
-        return evidence.history(self.learner, self.iterations, self.scenario)
-
-
-def leading(study: Study) -> Run:
-    """The training of Figure 1: of the improved system, or of the first learner without it."""
-    plan = study.experiments
-    learner = IMPROVED if IMPROVED in plan.learners else next(iter(plan.learners))
-    lengths = plan.learners[learner]
-    iterations = plan.iterations if plan.iterations in lengths else min(lengths)
-    scenario = study.scenario if study.scenario in plan.scenarios else plan.scenarios[0]
-    return Run(learner, iterations, scenario)
 
 
 def curves(history: pd.DataFrame, error: ErrorStyle) -> pd.DataFrame:
@@ -62,7 +37,7 @@ def curves(history: pd.DataFrame, error: ErrorStyle) -> pd.DataFrame:
 def figure_1(evidence: Evidence) -> Figure:
     """Figure 1 of the paper: both errors in the paper's damage; right: on a logarithmic scale."""
     figure, panels = plt.subplots(1, 2, figsize=(WIDTH, 2.5))
-    history = leading(evidence.study).history(evidence)
+    history = evidence.history(*leading(evidence.study))
     means = history.groupby("iteration")[list(ERRORS)].mean()
     for axes, row, aside in zip(panels, (0, -1), (6, 3), strict=True):
         for error in BOTH:
@@ -106,11 +81,11 @@ def learners(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 2, sharex=True, figsize=(WIDTH, 3.1))
     for axes, error in zip(panels, BOTH, strict=True):
         for (learner, iterations), style in styles.items():
-            table = curves(Run(learner, iterations, its.scenario).history(evidence), error)
+            table = curves(evidence.history(learner, iterations, its.scenario), error)
             table = table[table.index > 0]
             _draw_band(axes, table, style.color)
             axes.plot(table.index, table.mean(axis=1), label=style.label, **style.line())
-        final = curves(its.history(evidence), error).iloc[-1].mean()
+        final = curves(evidence.history(*its), error).iloc[-1].mean()
         color = styles[its.learner, its.iterations].color
         axes.axhline(final, color=color, linewidth=0.8)
         note(
@@ -178,3 +153,26 @@ def _names(trained: Sequence[Place], own: str) -> list[str]:
         words(place.scenario) + (f",\non the {place.robot.upper()}" if place.robot != own else "")
         for place in trained
     ]
+
+
+def amounts(evidence: Evidence) -> Figure:
+    """Both errors of the improved system before and after learning, by the size of the damage."""
+    by_size = evidence.table("ensemble.parquet").groupby("scale")
+    figure, panels = plt.subplots(1, 2, figsize=(WIDTH, 2.6))
+    for axes, error in zip(panels, BOTH, strict=True):
+        for moment, color, marker in (("initial", GREY, "^"), ("final", error.color, error.marker)):
+            its = by_size[f"{moment}_{error.column}"]
+            low, middle, high = (
+                its.quantile(share) for share in (BAND[0] / 100, 0.5, BAND[1] / 100)
+            )
+            band(axes, middle.index, (low, high), color)
+            axes.plot(middle.index, middle, color=color, marker=marker)
+        axes.set(xlabel="size of the damage (paper: 1)", ylabel=error.label)
+        for text, at, side, color in (
+            ("before", (0.04, 0.95), "left", GREY),
+            ("after", (0.98, 0.05), "right", error.color),
+        ):
+            note(axes, text, at, (0, 0), xycoords="axes fraction", ha=side, color=color)
+        logarithmic(axes.xaxis, 0.1, 0.3, 1, 3)
+        logarithmic(axes.yaxis, 0.01, 0.1, 1, 10)
+    return figure

@@ -124,13 +124,6 @@ def legend_below(figure: Figure, axes: Axes, columns: int) -> None:
     figure.legend(handles, labels, loc="outside lower center", ncols=columns)
 
 
-def title(figure: Figure, text: str, below: str = "") -> None:
-    """What a picture of ideas shows above it, and what its signs mean below it."""
-    figure.suptitle(text, fontweight="bold", x=0.01, ha="left")
-    if below:
-        figure.supxlabel(below, fontsize=SMALL)
-
-
 def words(scenario: str) -> str:
     """A scenario's name for people."""
     return scenario.replace("_", " and ")

@@ -1,18 +1,13 @@
 """The public names and their modules."""
 
+from .film import take_film as take_film
 from .in_browser import script as script
-from .phases import ARM as ARM
 from .phases import BEFORE as BEFORE
 from .phases import CLOCK as CLOCK
 from .phases import FRAMES_A_SECOND as FRAMES_A_SECOND
 from .phases import POSES as POSES
 from .phases import VISIT as VISIT
 from .phases import move as move
-from .pictures import ends as ends
-from .pictures import take_pictures as take_pictures
-from .recorded import published_errors as published_errors
-from .recorded import recorded_iterations as recorded_iterations
-from .recorded import recorded_learners as recorded_learners
 from .recorded import recorded_places as recorded_places
 from .recorded import typical_seed as typical_seed
 from .scene import AXIS as AXIS
@@ -21,4 +16,3 @@ from .sight import sight_of as sight_of
 from .watched import visiting_order as visiting_order
 from .writing import check_end as check_end
 from .writing import record as record
-from .writing import write_recording as write_recording

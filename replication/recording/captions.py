@@ -1,24 +1,23 @@
 """What a recording says about itself, in words."""
 
 import importlib.metadata
-from collections.abc import Mapping
 from typing import Any
 
-from replication.config.damages import damages_among, disturbances_among
+from recalib.damaged.damage import EncoderShift, LinkShortening
+from replication.config.damages import Entry, damages_among, describe
 from replication.recording import colours
-from replication.recording.measurements import enlarged
-from replication.recording.naming import in_words
+from replication.recording.markers import joint_of, link_of
 from replication.recording.watched import Watched
 from replication.scenarios.plants import Resolved
-from replication.training.competitors import label_of
 from replication.training.measured import ERRORS
 
+PARTS = "link", "joint", "encoder"  # keys of what a damage is at
 PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
-def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
-    """The text next to the first learner's arm, in Markdown."""
-    main, damages = next(iter(watched.values())), damages_among(resolved.damages)
+def about(resolved: Resolved, watched: Watched) -> str:
+    """The text next to the arm, in Markdown."""
+    damages = damages_among(resolved.damages)
     disturbances = [entry for entry in resolved.damages if entry not in damages]
     text = [
         f"**The grey arm** is the real one, a {resolved.robot.upper()}. **The blue skeleton** is"
@@ -28,15 +27,13 @@ def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
         else "**It has no damage**: it is where its controller assumes it to be.",
     ]
     if disturbances:
-        times = f", {enlarged(main)} times enlarged" if enlarged(main) > 1 else ""
-        text.append(
-            f"**Disturbances**: {'; '.join(map(in_words, disturbances))}. Pink lines lead from each"
-            f" pose reached to {main.scatter.shape[1]} measurements of it{times}."
-        )
+        text.append(f"**Disturbances**: {'; '.join(map(in_words, disturbances))}.")
+    learned = watched.history
     misses = " and misses them (orange)" if damages else ""
-    before, after = (_errors(main)[row] for row in (0, -1))
+    before, after = (_errors(watched)[row] for row in (0, -1))
     text += [
-        f"The arm visits {len(main.desired)} poses (white){misses}, learns for {_effort(main)}, and"
+        f"The arm visits {len(watched.desired)} poses (white){misses}, learns for"
+        f" {learned.iterations[-1]} iterations ({learned.moves[-1]} moves), and"
         f" visits them again. Mean errors over all test poses: {before} before, {after} after.",
         "**The map** that corrects commands: each dot is a cell; those that have just learned are"
         " larger. An arrow shows how far a cell moves a command.",
@@ -44,32 +41,31 @@ def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
     return "\n\n".join(text)
 
 
+def in_words(entry: Entry) -> str:
+    """A damage or disturbance: where it is, what it is, and by how much."""
+    words = {
+        key: ", ".join(its) if isinstance(its, list) else its
+        for key, its in describe(entry).items()
+        if key not in PARTS
+    }
+    said = [f"{key.replace('_', ' ')} {value}" for key, value in words.items()]
+    match entry:
+        case LinkShortening():
+            said[0] = f"{words['shorten']} short"
+        case EncoderShift():
+            said[0] = f"encoder {words['shift']}"
+    if part := link_of(entry) or joint_of(entry):
+        name = part.removesuffix("_link").removesuffix("_joint").replace("_", " ")
+        return f"{name}: {', '.join(said)}"
+    return ", ".join(said)
+
+
 def legend(resolved: Resolved) -> dict[str, colours.Colour]:
     """What stands for what in the picture, with its colour."""
     lines = {"desired pose": colours.WHITE, "pose reached": colours.REACHED}
-    if disturbances_among(resolved.damages):
-        lines["measurement"] = colours.MEASURED
     if damages_among(resolved.damages):
         lines["damage"] = colours.DAMAGE
     return lines | {"assumed arm": colours.NOMINAL}
-
-
-def beside(watched: Mapping[str, Watched]) -> str:
-    """The text below all learners' arms, in Markdown."""
-    text = ["**The same arm with each learner**: the same poses in the same order."]
-    for name, its in watched.items():
-        errors, kind = _errors(its), "maps" if its.cells else "an identified model"
-        text.append(
-            f"**{label_of(name)}** ({kind}) learns for {_effort(its)}. Mean errors: {errors[0]}"
-            f" before, {errors[-1]} after."
-        )
-    return "\n\n".join(text)
-
-
-def _effort(watched: Watched) -> str:
-    """How long a learner learns."""
-    history = watched.history
-    return f"{history.iterations[-1]} iterations ({history.moves[-1]} moves)"
 
 
 def _errors(watched: Watched) -> list[str]:

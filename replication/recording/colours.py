@@ -6,6 +6,4 @@ WHITE, GREY = (255, 255, 255), (120, 125, 130)  # what is desired and said; what
 NOMINAL = (86, 180, 233)  # the arm that the controller assumes, and what the map adds to commands
 DAMAGE = (240, 228, 66)  # where the arm is not what its controller assumes
 REACHED = (235, 70, 0)  # where it goes instead of where it is sent
-MEASURED = (255, 164, 171)  # what an instrument says
-LEARNERS = NOMINAL, (93, 147, 100), (111, 95, 250)  # in the plots
 BACKGROUND = 24, 28, 36

@@ -13,8 +13,9 @@ from recalib.nominal.robots import Robot
 from replication.config.damages import damages_among
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
-from replication.recording.recorded import recorded_history, recorded_iterations, typical_seed
+from replication.recording.recorded import recorded_history, typical_seed
 from replication.scenarios.plants import Resolved, nominal_robot
+from replication.training.plan import leading
 from replication.training.poses import Stream
 from replication.training.tuned import Tuned, rules_of
 
@@ -29,7 +30,7 @@ def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path
         settings: files with widths and rates.
         history: file of the improved system's trainings there.
     """
-    resolved, iterations = Resolved.read(scenario), recorded_iterations(study)
+    resolved, iterations = Resolved.read(scenario), leading(study).iterations
     seed, tests = typical_seed(recorded_history(study, history)), study.training.tests
     poses = Stream.SCENARIO.draw(study.seed, [seed], iterations, tests, scenario=resolved.scenario)
     robot, links = nominal_robot(resolved.nominal), resolved.nominal.robot.links

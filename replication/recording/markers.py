@@ -8,7 +8,7 @@ import pinocchio as pin
 
 from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.nominal.robots import Robot
-from replication.recording.naming import joint_of, link_of
+from replication.config.damages import Entry
 
 HALF_AXIS = 0.5  # of the axis that is drawn through a joint, in units of `scene.unit_of`
 
@@ -26,6 +26,16 @@ class Marker:
     part: str
     link: str
     axis: np.ndarray | None
+
+
+def link_of(entry: Entry) -> str:
+    """The link that a damage is at; empty if it is at none."""
+    return getattr(entry, "link", "")
+
+
+def joint_of(entry: Entry) -> str:
+    """The joint that a damage is at; empty if it is at none."""
+    return getattr(entry, "joint", "") or getattr(entry, "encoder", "")
 
 
 def markers(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Marker]:

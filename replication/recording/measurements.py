@@ -1,42 +1,22 @@
-"""What was measured while the arm learned: errors, landings and their scatter, cells of a map."""
-
-from collections.abc import Mapping, Sequence
+"""What was measured while the arm learned: errors, landings, cells of a map."""
 
 import numpy as np
 import rerun as rr
 
-from replication.recording.colours import GREY, MEASURED, NOMINAL, REACHED
+from replication.recording.colours import NOMINAL, REACHED
 from replication.recording.scene import AXIS, Scene, axes_of, unit_of
-from replication.recording.watched import MapCells, Watched
-from replication.training.measured import ERRORS, UNITS
-
-PUBLISHED = "paper"  # the entity's name beside those of the learners
-VISIBLE = 0.01  # m: measurements that scatter less are drawn enlarged
+from replication.training.measured import ERRORS
 
 
-def send_errors(scene: Scene, colour: Sequence[int]) -> None:
+def send_errors(scene: Scene) -> None:
     """Mean errors over all test poses."""
-    results = scene.watched.history.columns()
+    results, (clock, rows) = scene.watched.history.columns(), scene.motion.measurements()
     # a few moves in a moment are no noise to be averaged
-    style = rr.SeriesLines(names=scene.learner, colors=colour, widths=3, aggregation_policy="off")
+    style = rr.SeriesLines(names=scene.learner, colors=NOMINAL, widths=3, aggregation_policy="off")
     for quantity in ERRORS:
-        _plot(scene, f"errors/{quantity}/{scene.learner}", results[quantity], style)
-
-
-def send_published(scene: Scene, published: Mapping[str, float]) -> None:
-    """The published initial errors, if there are any, as straight lines in the plots."""
-    for quantity, unit in zip(ERRORS, UNITS, strict=True):
-        if quantity in published:
-            name = f"the paper, before: {published[quantity]} {unit}"
-            level = np.full(len(scene.motion.iterations), published[quantity])
-            style = rr.SeriesLines(names=name, colors=GREY, widths=1)
-            _plot(scene, f"errors/{quantity}/{PUBLISHED}", level, style)
-
-
-def _plot(scene: Scene, entity: str, values: np.ndarray, style: rr.SeriesLines) -> None:
-    clock, rows = scene.motion.measurements()
-    scene.rec.send_columns(entity, clock, rr.Scalars.columns(scalars=values[rows]))
-    scene.rec.log(entity, style, static=True)
+        entity = f"errors/{quantity}/{scene.learner}"
+        scene.rec.send_columns(entity, clock, rr.Scalars.columns(scalars=results[quantity][rows]))
+        scene.rec.log(entity, style, static=True)
 
 
 def send_landings(scene: Scene) -> None:
@@ -60,31 +40,13 @@ def send_landings(scene: Scene) -> None:
         scene.show(part, lines, each, rr.LineStrips3D.from_fields(colors=REACHED))
 
 
-def send_scatter(scene: Scene) -> None:
-    """Lines from where the arm lands to what was measured there: noise, outliers, repeatability."""
-    watched, (_, rows) = scene.watched, scene.motion.measurements()
-    poses, repeated, _ = watched.scatter.shape
-    landed = np.repeat(watched.achieved[rows, :, None, :3, 3], repeated, axis=2)
-    ends = landed + enlarged(watched) * watched.scatter
-    lines = rr.LineStrips3D.columns(strips=np.stack([landed, ends], axis=-2).reshape(-1, 2, 3))
-    style = rr.LineStrips3D.from_fields(radii=0.009 * unit_of(scene.workspace), colors=MEASURED)
-    scene.show("measured", lines, poses * repeated, style)
-
-
-def enlarged(watched: Watched) -> int:
-    """How many times as large the errors of measurements are drawn to be visible: 1, 10, ..."""
-    spread, times = np.sqrt(np.square(watched.scatter).sum(axis=-1).mean()), 1
-    while 0 < spread * times < VISIBLE:
-        times *= 10
-    return times
-
-
-def send_map(scene: Scene, cells: MapCells) -> None:
+def send_map(scene: Scene) -> None:
     """The supernet's cells, larger the more they learned last.
 
     Their corrections are true to scale.
     """
-    unit, (_, rows) = unit_of(scene.workspace), scene.motion.measurements()
+    cells, unit = scene.watched.cells, unit_of(scene.workspace)
+    _, rows = scene.motion.measurements()
     points = rr.Points3D.columns(radii=(0.022 + 0.038 * cells.weights[rows].ravel()) * unit)
     cell = rr.Points3D(cells.centres, colors=NOMINAL)
     scene.show("map/cells", points, len(cells.centres), cell)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import rerun as rr
 
-ARM = "the arm"  # the view of the first learner's
+ARM = "the arm"  # the name of its view
 # Plots have no clock of their own: that of the viewer counts iterations, so that their ticks do.
 CLOCK = "iterations"
 FRAMES_A_SECOND = 30
@@ -52,17 +52,16 @@ class Motion:
         return [rr.TimeColumn(CLOCK, sequence=shown)], rows
 
 
-def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray, most: int) -> Motion:
+def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray) -> Motion:
     """The motion that shows a training, from the home angles (joint,) [rad].
 
     Args:
         angles: (measurement, pose, joint) rad that the joints are sent to for the shown poses.
         iterations: (measurement,) done until then.
-        most: iterations of the longest training that is shown next to it: all share one clock.
     """
     before, after = angles[0], angles[-1]
     departures = VISIT * np.arange(len(before))
-    starts = np.array([[-VISIT * len(before)], [most + 1]])
+    starts = np.array([[-VISIT * len(before)], [iterations[-1] + 1]])
     visits = starts + np.arange(VISIT * len(before))
     done = np.minimum(np.arange(VISIT) / (VISIT / 2), 1)
     return Motion(

@@ -1,9 +1,9 @@
 """The entities of a recording: what stands still is static, the rest is sent as columns over time.
 
-    /about, /beside                the texts of the two tabs
+    /about                         the text
     /workspace, /desired           the box of positions, and the shown test poses in it
     /legend                        what the colours mean
-    /<learner>/<robot>             the meshes of the real arm that this learner moves
+    /<learner>/<robot>             the meshes of the real arm that the learner moves
     /<learner>/links               where its links are
     /<learner>/tool                the pose of its tool
     /<learner>/nominal             the arm that its controller assumes, as a skeleton
@@ -11,11 +11,9 @@
     /<learner>/target              the pose that the arm is sent to, and a caption
     /<learner>/reached             where the real arm lands
     /<learner>/miss                lines to there from the desired positions
-    /<learner>/measured            what is measured there, where that is disturbed
     /<learner>/map/cells           the supernet's cells, lit by the neighbourhood of the last winner
     /<learner>/map/corrections     how far each cell has learned to move its position command
     /errors/<quantity>/<learner>   mean errors over all test poses
-    /errors/<quantity>/paper       the published initial error, where it is meant
 
 Timeline `iterations` runs through the three phases of `phases.Motion`.
 """
@@ -73,13 +71,12 @@ def unit_of(workspace: Workspace) -> float:
 
 
 def log_surroundings(
-    rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, texts: Mapping[str, str]
+    rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, about: str
 ) -> None:
-    """The texts by entity, the workspace's box and the desired poses (pose, 4, 4)."""
+    """The text, the workspace's box and the desired poses (pose, 4, 4)."""
     unit = unit_of(workspace)
     rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-    for entity, text in texts.items():
-        rec.log(entity, rr.TextDocument(text, media_type="text/markdown"), static=True)
+    rec.log("about", rr.TextDocument(about, media_type="text/markdown"), static=True)
     box = rr.Boxes3D(
         centers=[workspace.centre[:3, 3]],
         half_sizes=[workspace.half_ranges[POSITION]],

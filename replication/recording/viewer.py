@@ -26,26 +26,13 @@ def quiet() -> dict[str, str]:
     return os.environ | {"CI": "true"}
 
 
-def start(
-    *options: str, log: int | IO[str] = subprocess.DEVNULL, outlives: bool = False
-) -> subprocess.Popen[bytes]:
-    """The program with these options.
-
-    Args:
-        outlives: whether what ends this process, such as a Ctrl-C in the terminal, is not for it.
-    """
-    command = [str(PROGRAM), "--bind", HERE, *options]
-    return subprocess.Popen(
-        command, env=quiet(), stdout=log, stderr=log, start_new_session=outlives
-    )
-
-
 @contextmanager
 def viewer(
     *options: str, log: int | IO[str] = subprocess.DEVNULL
 ) -> Iterator[subprocess.Popen[bytes]]:
     """The program with these options, ended at the end of the block."""
-    process = start(*options, log=log)
+    command = [str(PROGRAM), "--bind", HERE, *options]
+    process = subprocess.Popen(command, env=quiet(), stdout=log, stderr=log)
     try:
         yield process
     finally:

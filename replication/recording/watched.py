@@ -7,14 +7,11 @@ import numpy as np
 
 from recalib.damaged.plant import Plant
 from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.loop.interfaces import Learner
 from recalib.loop.training import History
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION
 from replication.recording.phases import POSES
 from replication.training.poses import ResultPoses, SearchPoses, train_for_results
-
-REPEATED = 10  # measurements of each shown pose, to see how they scatter
 
 
 @dataclass(frozen=True)
@@ -43,17 +40,14 @@ class Watched:
         desired: (pose, 4, 4) those of the test poses that are shown.
         achieved: (measurement, pose, 4, 4) where the real arm lands instead.
         angles: (measurement, pose, joint) rad, what the controller commands the joints for them.
-        scatter: (pose, repetition, 3) m by which measurements miss where the trained arm lands
-            undisturbed.
-        cells: those of the map; None for a learner that has none.
+        cells: those of the map.
     """
 
     history: History
     desired: np.ndarray
     achieved: np.ndarray
     angles: np.ndarray
-    scatter: np.ndarray
-    cells: MapCells | None
+    cells: MapCells
 
 
 def visiting_order(poses: np.ndarray) -> np.ndarray:
@@ -67,7 +61,7 @@ def visiting_order(poses: np.ndarray) -> np.ndarray:
 def watch(
     controller: Controller,
     plant: Plant,
-    learner: Learner,
+    learner: HierarchicalLearner,
     poses: ResultPoses | SearchPoses,
     measure_at: Sequence[int],
 ) -> Watched:
@@ -80,35 +74,28 @@ def watch(
     """
     workspace, shown = controller.robot.workspace, visiting_order(poses.tests[0, :POSES])
     commands, thetas, weights = [], [], []
-    maps = learner if isinstance(learner, HierarchicalLearner) else None
 
     def on_progress(iteration: int, *_: float) -> None:
         commands.append(learner.command(shown[None])[0])
-        if maps:
-            thetas.append(maps.maps.cells.theta[0, 0, ..., POSITION].copy())
-            weights.append(_neighbourhood(maps, poses.desired[0], iteration))
+        thetas.append(learner.maps.cells.theta[0, 0, ..., POSITION].copy())
+        weights.append(_neighbourhood(learner, poses.desired[0], iteration))
 
     history = train_for_results(plant, learner, poses, measure_at, progress=on_progress)
     goals, home = workspace.to_poses(shown), controller.robot.home
     targets = controller.targets(np.concatenate(commands)[None])
     angles = np.where(targets.executed[..., None], targets.angles, home)  # at home where refused
     achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *goals.shape)
-    repeated = plant.execute(np.repeat(commands[-1][None], REPEATED, axis=1)).achieved[0]
-    measured = workspace.to_poses(repeated).reshape(len(shown), REPEATED, 4, 4)
-    cells = None
-    if maps:
-        half_ranges = workspace.half_ranges[POSITION]
-        cells = MapCells(
-            centres=workspace.centre[:3, 3] + maps.maps.nets.w_k * half_ranges,
-            weights=np.stack(weights),
-            corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,
-        )
+    half_ranges = workspace.half_ranges[POSITION]
+    cells = MapCells(
+        centres=workspace.centre[:3, 3] + learner.maps.nets.w_k * half_ranges,
+        weights=np.stack(weights),
+        corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,
+    )
     return Watched(
         history=history,
         desired=goals,
         achieved=achieved,
         angles=angles.reshape(len(commands), len(shown), -1),
-        scatter=(measured - achieved[-1][:, None])[..., :3, 3],
         cells=cells,
     )
 

@@ -1,8 +1,7 @@
 """Recordings: trainings are repeated and watched, and must be those of the histories."""
 
 import warnings
-from collections.abc import Mapping, Sequence
-from itertools import cycle
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,35 +12,20 @@ from rerun.error_utils import RerunWarning
 
 from recalib.errors import InvalidFile
 from recalib.files.storage import whole
-from recalib.loop.interfaces import Learner
-from replication.config.damages import damages_among, disturbances_among
+from replication.config.damages import damages_among
 from replication.config.study import Study
-from replication.recording import captions, colours
+from replication.recording import captions
 from replication.recording.arms import send_arms
 from replication.recording.blueprint import arrange
-from replication.recording.measurements import (
-    send_errors,
-    send_landings,
-    send_map,
-    send_published,
-    send_scatter,
-)
+from replication.recording.measurements import send_errors, send_landings, send_map
 from replication.recording.phases import move
-from replication.recording.recorded import (
-    MOVES,
-    TODAYS,
-    published_errors,
-    recorded_history,
-    recorded_iterations,
-    recorded_learners,
-    typical_seed,
-)
+from replication.recording.recorded import recorded_history, typical_seed
 from replication.recording.scene import Scene, log_legend, log_surroundings, send_target
 from replication.recording.sight import sight_of
 from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved
-from replication.training.competitors import make_peer
 from replication.training.measured import ERRORS
+from replication.training.plan import leading
 from replication.training.poses import Stream
 from replication.training.tuned import Tuned
 
@@ -53,48 +37,37 @@ def record(
     histories: Sequence[Path],
     recordings: Sequence[Path],
 ) -> None:
-    """Write a recording of each scenario: of one training of each of `recorded_learners`.
-
-    It is the training with the seed that is typical of the first of them. In the study's own
-    scenario, one of today's learners is watched, too.
+    """Write a recording of each scenario: of the typical training of the learner of Figure 1.
 
     Args:
         scenarios: files of the scenarios, those of `recorded_places`.
         settings: files with widths and rates.
-        histories: files of the trainings of all learners in the first scenario, then in the second
-            one, and so on.
+        histories: files of the learner's trainings, one for each scenario.
         recordings: files that are written, one for each scenario.
 
     Raises InvalidFile: a mesh of the robot is not found, or a history says something else than
     what was watched.
     """
-    tuned, names = Tuned(study, settings), recorded_learners(study)
-    for number, (file, rrd) in enumerate(zip(scenarios, recordings, strict=True)):
-        files = histories[number * len(names) :][: len(names)]
-        tables = [recorded_history(study, path) for path in files]
-        resolved, seed = Resolved.read(file), typical_seed(tables[0])
-        watched = watch_all(study, resolved, tuned, seed)
-        for name, path, table in zip(names, files, tables, strict=True):
-            _compare(path, watched[name], table[table["seed"] == seed])
-        write_recording(rrd, resolved, watched, published_errors(study, resolved.scenario))
+    tuned = Tuned(study, settings)
+    for file, path, rrd in zip(scenarios, histories, recordings, strict=True):
+        resolved, table = Resolved.read(file), recorded_history(study, path)
+        seed = typical_seed(table)
+        watched = watch_training(study, resolved, tuned, seed)
+        _compare(path, watched, table[table["seed"] == seed])
+        write_recording(rrd, resolved, leading(study).learner, watched)
 
 
-def watch_all(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> dict[str, Watched]:
-    """The trainings of all learners with a seed."""
-    iterations, controller = recorded_iterations(study), resolved.controller()
-    learners: dict[str, tuple[Learner, Sequence[int]]] = {
-        name: (tuned.learner(name, iterations, 1), study.training.during(iterations))
-        for name in recorded_learners(study)
-    }
-    if resolved.scenario == study.scenario:
-        learners[TODAYS] = make_peer(TODAYS, 1, controller.robot), range(MOVES + 1)
-    found = {}
-    for name, (learner, measure_at) in learners.items():
-        tests, scenario = study.training.tests, resolved.scenario
-        poses = Stream.SCENARIO.draw(study.seed, [seed], measure_at[-1], tests, scenario=scenario)
-        plant = resolved.plant(controller, study.seed, [seed])
-        found[name] = watch(controller, plant, learner, poses, measure_at)
-    return found
+def watch_training(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
+    """The training with a seed."""
+    (learner, iterations, _), controller = leading(study), resolved.controller()
+    tests, scenario = study.training.tests, resolved.scenario
+    return watch(
+        controller,
+        resolved.plant(controller, study.seed, [seed]),
+        tuned.learner(learner, iterations, 1),
+        Stream.SCENARIO.draw(study.seed, [seed], iterations, tests, scenario=scenario),
+        study.training.during(iterations),
+    )
 
 
 def _compare(path: Path, watched: Watched, history: pd.DataFrame) -> None:
@@ -106,46 +79,30 @@ def _compare(path: Path, watched: Watched, history: pd.DataFrame) -> None:
             raise InvalidFile(path, f"its {column} is not that of the same training now")
 
 
-def write_recording(
-    path: Path,
-    resolved: Resolved,
-    watched: Mapping[str, Watched],
-    published: Mapping[str, float],
-) -> None:
-    """Write what was watched of learners on a scenario's robot.
-
-    Args:
-        published: initial errors by quantity, if there are any.
+def write_recording(path: Path, resolved: Resolved, learner: str, watched: Watched) -> None:
+    """Write what was watched of a learner on a scenario's robot.
 
     Raises InvalidFile: a mesh of the robot is not found, or the file ends too early.
     """
     robot, damages = resolved.controller().robot, damages_among(resolved.damages)
-    main = next(iter(watched.values()))
-    sight = sight_of(robot.workspace, (main.achieved[0] - main.desired)[:, :3, 3])
-    most = max(its.history.iterations[-1] for its in watched.values())
+    sight = sight_of(robot.workspace, (watched.achieved[0] - watched.desired)[:, :3, 3])
+    motion = move(watched.angles, watched.history.iterations, robot.home)
     rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
     with whole(path) as temporary:
         # without the properties that Rerun would add by itself: one is the time of writing
         rec = rr.RecordingStream("recalib", recording_id=path.stem, send_properties=False)
-        rec.save(temporary, default_blueprint=arrange(watched, sight, published))
+        rec.save(temporary, default_blueprint=arrange(watched, sight))
         rec.send_recording_name(path.stem)
         rec.send_property("run", rr.AnyValues(**captions.properties(resolved)))
-        texts = {"about": captions.about(resolved, watched), "beside": captions.beside(watched)}
-        log_surroundings(rec, robot.workspace, main.desired, texts)
+        about = captions.about(resolved, watched)
+        log_surroundings(rec, robot.workspace, watched.desired, about)
         log_legend(rec, sight, captions.legend(resolved))
-        for colour, (name, its) in zip(cycle(colours.LEARNERS), watched.items(), strict=False):
-            motion = move(its.angles, its.history.iterations, robot.home, most)
-            scene = Scene(rec, name, robot.workspace, its, motion, sight)
-            if its is main:
-                send_published(scene, published)
-            send_arms(scene, robot, damages)
-            send_target(scene, captions.progress(resolved, its))
-            send_errors(scene, colour)
-            send_landings(scene)
-            if disturbances_among(resolved.damages):
-                send_scatter(scene)
-            if its.cells:
-                send_map(scene, its.cells)
+        scene = Scene(rec, learner, robot.workspace, watched, motion, sight)
+        send_arms(scene, robot, damages)
+        send_target(scene, captions.progress(resolved, watched))
+        send_errors(scene)
+        send_landings(scene)
+        send_map(scene)
         rec.disconnect()
         check_end(temporary)
 

@@ -5,6 +5,8 @@ from .alone import NOTES as NOTES
 from .alone import check_known as check_known
 from .alone import check_writable as check_writable
 from .alone import hold as hold
+from .consistency import check as check
+from .geometry import check_robots as check_robots
 from .layers import LAYERS as LAYERS
 from .outputs import write as write
 from .studies import BANDS as BANDS

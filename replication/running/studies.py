@@ -18,8 +18,9 @@ from replication.config.reading import Check, Source, placed, read_study
 from replication.config.shipped import SHIPPED, root_of
 from replication.config.study import Study
 from replication.config.values import Placed, from_mapping, shown
-from replication.running.checks.consistency import check, unused
-from replication.running.checks.geometry import check_robots
+from replication.judgement.checks import BAND
+from replication.running.consistency import check, unused
+from replication.running.geometry import check_robots
 
 CONFIGURATION = "config.yaml"
 OTHERS = "workflow/studies"
@@ -27,7 +28,7 @@ LIKE = "like"  # the key by which a study names another one, of which it says wh
 LOCK = "workflow/shipped.json"  # digests of the shipped study, part by part; see `make ship`
 DESCRIPTION = "real", "description"
 EXPECTED = ("expected",)
-BANDS = "robot,scenario,learner,iterations,error,low,high"  # the header of a table of them
+BANDS = ",".join(BAND)  # the header of a table of them
 PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
 
 

@@ -1,8 +1,6 @@
 """The robot as its controller models it, as an argument of jobs."""
 
 import hashlib
-from collections.abc import Iterable
-from pathlib import Path
 
 from recalib.nominal.descriptions import find_urdf
 from replication.config.part import Frozen
@@ -22,11 +20,5 @@ class Nominal(Frozen):
 def nominal(study: Study, robot: str) -> Nominal:
     """A robot of a study. See `find_urdf` for what it raises."""
     entry = study.robots[robot]
-    digest = digest_of([find_urdf(entry.urdf)])
+    digest = hashlib.sha256(find_urdf(entry.urdf).read_bytes()).hexdigest()
     return Nominal(name=robot, robot=entry, controller=study.controller, urdf_sha256=digest)
-
-
-def digest_of(files: Iterable[Path]) -> str:
-    """Of what stands in files."""
-    each = (hashlib.sha256(file.read_bytes()).hexdigest() for file in files)
-    return hashlib.sha256("".join(each).encode()).hexdigest()

@@ -1,6 +1,5 @@
 """The public names and their modules."""
 
-from .benchmark import Timed as Timed
 from .benchmark import compete as compete
 from .competitors import UNCORRECTED as UNCORRECTED
 from .competitors import make_peer as make_peer
@@ -10,6 +9,7 @@ from .measured import BOTH as BOTH
 from .measured import ERRORS as ERRORS
 from .measured import KINDS as KINDS
 from .plan import Place as Place
+from .plan import leading as leading
 from .plan import places as places
 from .plan import throughout as throughout
 from .poses import ResultPoses as ResultPoses

@@ -5,18 +5,15 @@ iteration; today's, the peers, make one.
 """
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from recalib.learners.kinds import KINDS, POSES, class_of
+from recalib.learners.kinds import KINDS, class_of
+from recalib.learners.uncorrected import UncorrectedLearner
+from recalib.loop.interfaces import Learner
+from recalib.nominal.robots import Robot
 from replication.config.switches import RITTER
 
-# Whoever only asks for names need not wait for what builds and moves arms.
-if TYPE_CHECKING:
-    from recalib.loop.interfaces import Learner
-    from recalib.nominal.robots import Robot
-
 MOVES = 2  # of an iteration of the paper's learners
-TWO_MOVES = f"{POSES}, two moves for each"
 UNCORRECTED = "uncorrected"  # the peer that learns nothing
 TWIN = "hybrid"  # the one that identifies a twin: it explains more than geometry
 
@@ -48,20 +45,12 @@ def peers() -> dict[str, Peer]:
     return {UNCORRECTED: Peer(UNCORRECTED, "nothing", "", {})} | named
 
 
-def make_peer(name: str, runs: int, robot: "Robot") -> "Learner":
+def make_peer(name: str, runs: int, robot: Robot) -> Learner:
     """The peer of this name, which has learned nothing yet, for a nominal robot."""
     its = peers()[name]
     if name == UNCORRECTED:
-        from recalib.learners.uncorrected import UncorrectedLearner
-
         return UncorrectedLearner()
     return class_of(its.kind).from_settings(its.settings, runs, robot)
-
-
-def needs_of(name: str) -> str:
-    """What a learner needs to know."""
-    known = peers()
-    return known[name].needs if name in known else TWO_MOVES
 
 
 def label_of(name: str) -> str:

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from replication.config.study import Study
-from replication.config.switches import SWITCHES
+from replication.config.switches import IMPROVED, SWITCHES
 
 
 class Place(NamedTuple):
@@ -51,3 +51,21 @@ def places(study: Study) -> dict[Place, Lengths]:
 def throughout(study: Study, place: Place, learner: str, iterations: int) -> bool:
     """Whether figures show how a training went on its way."""
     return iterations in study.experiments.learners.get(learner, ()) and place.robot == study.robot
+
+
+class Run(NamedTuple):
+    """A learner in a scenario of the study's robot, trained for so many iterations."""
+
+    learner: str
+    iterations: int
+    scenario: str
+
+
+def leading(study: Study) -> Run:
+    """The training of Figure 1: of the improved system, or of the first learner without it."""
+    plan = study.experiments
+    learner = IMPROVED if IMPROVED in plan.learners else next(iter(plan.learners))
+    lengths = plan.learners[learner]
+    iterations = plan.iterations if plan.iterations in lengths else min(lengths)
+    scenario = study.scenario if study.scenario in plan.scenarios else plan.scenarios[0]
+    return Run(learner, iterations, scenario)

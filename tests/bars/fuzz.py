@@ -53,9 +53,9 @@ COMMANDS = {  # by the file that is changed: what reads it
     "board.toml": OBSERVE,
     "pictures/001.png": OBSERVE,
     "lens.yaml": [*OBSERVE, "--lens=lens.yaml"],
-    "seen/corners.csv": ["calibrate", "panda.urdf", "seen", "--tool=panda_link8"],
-    "seen/setup.toml": ["calibrate", "panda.urdf", "seen", "--tool=panda_link8"],
-    "seen/measurements.csv": ["calibrate", "panda.urdf", "seen", "--tool=panda_link8"],
+    "observed/corners.csv": ["calibrate", "panda.urdf", "observed", "--tool=panda_link8"],
+    "observed/setup.toml": ["calibrate", "panda.urdf", "observed", "--tool=panda_link8"],
+    "observed/measurements.csv": ["calibrate", "panda.urdf", "observed", "--tool=panda_link8"],
 }
 NUMBERS = "nan inf -inf 1e308 -1e308 1e-320 0 -0 1e9 -1 1,5 0x10 1_000 ٣ 1e . - 9999999999999999999"
 TEXTS = "true null ~ [] {} word \x00 \x01 \ufffe <x/> &a; ${a} =1+1 ../../x /dev/zero mm deg"
@@ -72,8 +72,8 @@ def prepare(folder: Path) -> None:
     poses = real.poses(joints)
     known, wanted = poses[:25], poses[25:31]
 
-    def columns(some: np.ndarray, angles: np.ndarray) -> dict[str, np.ndarray]:
-        places = {f"{axis} [m]": some[:, i, 3] for i, axis in enumerate("xyz")}
+    def columns(tool_poses: np.ndarray, angles: np.ndarray) -> dict[str, np.ndarray]:
+        places = {f"{axis} [m]": tool_poses[:, i, 3] for i, axis in enumerate("xyz")}
         return in_degrees(arm, angles) | places
 
     write(folder / "rows.csv", columns(known, joints[:25]))
@@ -90,28 +90,28 @@ def prepare(folder: Path) -> None:
     write_joints(folder / "joints.csv", cell, postures)
     (folder / "board.toml").write_text(cell.board.described())
     write_session(folder / "of", cell, pictures=14)
-    (folder / "of/observed").rename(folder / "seen")
-    shutil.copy(folder / "seen/lens.yaml", folder / "lens.yaml")
+    (folder / "of/observed").rename(folder / "observed")
+    shutil.copy(folder / "observed/lens.yaml", folder / "lens.yaml")
     assert run([*CALIBRATE, "--out=calibration"], folder)[0] == DONE
-    for number, words in enumerate(COMMANDS.values()):
-        code, lines = run([*words, f"--out=plain{number}"], folder)
+    for number, arguments in enumerate(COMMANDS.values()):
+        code, lines = run([*arguments, f"--out=plain{number}"], folder)
         assert code == DONE, lines
     for plain in folder.glob("plain*"):
         shutil.rmtree(plain) if plain.is_dir() else plain.unlink()
 
 
-def run(words: list[str], folder: Path) -> tuple[int, str]:
+def run(arguments: list[str], folder: Path) -> tuple[int, str]:
     """The exit code of a command in a process of its own, negative by a signal, and its lines."""
-    with tempfile.TemporaryFile() as lines:
+    with tempfile.TemporaryFile() as output:
         child = os.fork()
         if not child:
             os.chdir(folder)
             for stream in (1, 2):
-                os.dup2(lines.fileno(), stream)
+                os.dup2(output.fileno(), stream)
             signal.alarm(SECONDS)
             code = 99
             try:
-                code = main(words)
+                code = main(arguments)
             except SystemExit as end:
                 code = end.code if isinstance(end.code, int) else 98
             except BaseException:  # whatever it is, it is shown
@@ -121,59 +121,57 @@ def run(words: list[str], folder: Path) -> tuple[int, str]:
                 sys.stderr.flush()
                 os._exit(code)
         _, status = os.waitpid(child, 0)
-        lines.seek(0)
-        return os.waitstatus_to_exitcode(status), lines.read().decode(errors="replace")
+        output.seek(0)
+        return os.waitstatus_to_exitcode(status), output.read().decode(errors="replace")
 
 
 Change = Callable[[random.Random, bytes], bytes]
 
 
-def bytes_changed(chance: random.Random, content: bytes) -> bytes:
+def bytes_changed(rng: random.Random, content: bytes) -> bytes:
     """Bytes flipped, cut out, written twice, or the end left out."""
-    at, size = chance.randrange(len(content)), chance.choice([1, 4, 40, 400])
+    at, size = rng.randrange(len(content)), rng.choice([1, 4, 40, 400])
     middle = content[at : at + size]
-    by = {
-        "flip": bytes(byte ^ 1 << chance.randrange(8) for byte in middle[:3]) + middle[3:],
+    replacements = {
+        "flip": bytes(byte ^ 1 << rng.randrange(8) for byte in middle[:3]) + middle[3:],
         "cut": b"",
         "twice": 2 * middle,
-        "noise": chance.randbytes(size),
+        "noise": rng.randbytes(size),
     }
-    if chance.random() < 0.2:
+    if rng.random() < 0.2:
         return content[:at]
-    return content[:at] + by[chance.choice([*by])] + content[at + size :]
+    return content[:at] + replacements[rng.choice([*replacements])] + content[at + size :]
 
 
-def words_changed(chance: random.Random, content: bytes) -> bytes:
+def words_changed(rng: random.Random, content: bytes) -> bytes:
     """Numbers or words replaced by another one."""
     text = content.decode(errors="surrogateescape")
-    found = [*re.finditer(r"[-+.\w]+", text)]
-    word = chance.choice(WORDS)
-    for match in sorted(chance.choices(found, k=chance.choice([1, 1, 1, 3])), key=Match.start)[
-        ::-1
-    ]:
+    matches = [*re.finditer(r"[-+.\w]+", text)]
+    word = rng.choice(WORDS)
+    for match in sorted(rng.choices(matches, k=rng.choice([1, 1, 1, 3])), key=Match.start)[::-1]:
         text = text[: match.start()] + word + text[match.end() :]
     return text.encode(errors="surrogateescape")
 
 
-def lines_changed(chance: random.Random, content: bytes) -> bytes:
+def lines_changed(rng: random.Random, content: bytes) -> bytes:
     """Lines, or tags, left out, twice, exchanged or mixed; a column with one number; a BOM."""
     parts = re.split(rb"(?<=>)|(?<=\n)", content)
-    one, other = chance.randrange(len(parts)), chance.randrange(len(parts))
-    match chance.randrange(7):
+    source, target = rng.randrange(len(parts)), rng.randrange(len(parts))
+    match rng.randrange(7):
         case 0:
-            parts.pop(one)
+            parts.pop(source)
         case 1:
-            parts.insert(other, parts[one])
+            parts.insert(target, parts[source])
         case 2:
-            parts[one], parts[other] = parts[other], parts[one]
+            parts[source], parts[target] = parts[target], parts[source]
         case 3:
-            chance.shuffle(parts)
+            rng.shuffle(parts)
         case 4:
             parts = parts[:2]
         case 5:
             parts = [part.replace(b"\n", b"\r\n") for part in [b"\xef\xbb\xbf", *parts]]
         case 6:
-            word, column = chance.choice(WORDS).encode(), chance.randrange(8)
+            word, column = rng.choice(WORDS).encode(), rng.randrange(8)
             cells = [part.split(b",") for part in parts]
             for row in cells[1:]:
                 if column < len(row) - 1:
@@ -182,11 +180,11 @@ def lines_changed(chance: random.Random, content: bytes) -> bytes:
     return b"".join(parts)
 
 
-def picture_changed(chance: random.Random, content: bytes) -> bytes:
+def picture_changed(rng: random.Random, content: bytes) -> bytes:
     """A picture of another size, kind or exposure."""
     picture = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_GRAYSCALE)
     height, width = picture.shape
-    every = [
+    candidates = [
         picture[:1, :1],
         picture[:1],
         picture[:, :1],
@@ -197,34 +195,34 @@ def picture_changed(chance: random.Random, content: bytes) -> bytes:
         cv2.cvtColor(picture, cv2.COLOR_GRAY2BGRA),
         cv2.resize(picture, (2 * width, height)),
         cv2.resize(picture, (3 * width, 3 * height)),
-        chance.randbytes(picture.size),
+        rng.randbytes(picture.size),
     ]
-    one = chance.choice(every)
-    if isinstance(one, bytes):
-        one = np.frombuffer(one, np.uint8).reshape(picture.shape)
-    return cv2.imencode(chance.choice([".png", ".jpg", ".tiff", ".bmp"]), one)[1].tobytes()
+    changed = rng.choice(candidates)
+    if isinstance(changed, bytes):
+        changed = np.frombuffer(changed, np.uint8).reshape(picture.shape)
+    return cv2.imencode(rng.choice([".png", ".jpg", ".tiff", ".bmp"]), changed)[1].tobytes()
 
 
-def archive_changed(chance: random.Random, content: bytes) -> bytes:
+def archive_changed(rng: random.Random, content: bytes) -> bytes:
     """A member of an archive changed, left out or named otherwise."""
-    made = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(content)) as old, zipfile.ZipFile(made, "w") as new:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as old, zipfile.ZipFile(buffer, "w") as new:
         names = old.namelist()
-        changed = chance.choice(names)
+        changed = rng.choice(names)
         for name in names:
             member = old.read(name)
             if name == changed:
-                match chance.randrange(4):
+                match rng.randrange(4):
                     case 0:
                         continue
                     case 1:
                         name = "other.npy"
                     case 2:
-                        member = bytes_changed(chance, member)
+                        member = bytes_changed(rng, member)
                     case 3:
-                        member = old.read(chance.choice(names))
+                        member = old.read(rng.choice(names))
             new.writestr(name, member)
-    return made.getvalue()
+    return buffer.getvalue()
 
 
 def changes(name: str) -> list[Change]:
@@ -276,28 +274,28 @@ def wrong(code: int, lines: str, out: Path) -> str | None:
 
 def fuzz(count: int, first: int) -> int:
     """How many of so many changes end badly; each of these is printed."""
-    kept, names, bad = Path(tempfile.mkdtemp(prefix="fuzz-")), [*COMMANDS], 0
-    base = kept / "base"
+    parent, names, failures = Path(tempfile.mkdtemp(prefix="fuzz-")), [*COMMANDS], 0
+    base = parent / "base"
     base.mkdir()
     prepare(base)
     codes: dict[int, int] = {}
     for seed in range(first, first + count):
-        chance, name = random.Random(seed), names[seed % len(names)]
-        folder = kept / str(seed)
+        rng, name = random.Random(seed), names[seed % len(names)]
+        folder = parent / str(seed)
         shutil.copytree(base, folder)
         path = folder / name
-        change = chance.choice(changes(name))
-        path.write_bytes(change(chance, path.read_bytes()))
+        change = rng.choice(changes(name))
+        path.write_bytes(change(rng, path.read_bytes()))
         code, lines = run([*COMMANDS[name], "--out=out"], folder)
         codes[code] = codes.get(code, 0) + 1
         out = next(folder.glob("out*"), folder / "out")
         if reason := wrong(code, lines, out):
-            bad += 1
+            failures += 1
             print(f"{seed}: {name}, {change.__name__}: {reason}: {folder}", lines[-600:], sep="\n")
         else:
             shutil.rmtree(folder)
-    print(f"{bad} of {count} end badly; exit codes: {codes}")
-    return bad
+    print(f"{failures} of {count} end badly; exit codes: {codes}")
+    return failures
 
 
 if __name__ == "__main__":

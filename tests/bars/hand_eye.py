@@ -56,17 +56,17 @@ def by_opencv(sights: Sights, solver: int) -> tuple[np.ndarray, np.ndarray]:
     """Camera and board (4, 4) by one of OpenCV's solvers."""
     arm = np.linalg.inv(sights.between)
     parts = arm[:, :3, :3], arm[:, :3, 3], sights.board[:, :3, :3], sights.board[:, :3, 3]
-    ends = np.tile(np.eye(4), (2, 1, 1))
-    ends[0, :3, :3], place = cv2.calibrateHandEye(*map(list, parts), method=solver)
-    ends[0, :3, 3] = place.ravel()
-    boards = arm @ ends[0] @ sights.board
-    ends[1, :3, :3] = Rotation.from_matrix(boards[:, :3, :3]).mean().as_matrix()
-    ends[1, :3, 3] = boards[:, :3, 3].mean(axis=0)
-    return ends[0], ends[1]
+    frames = np.tile(np.eye(4), (2, 1, 1))
+    frames[0, :3, :3], place = cv2.calibrateHandEye(*map(list, parts), method=solver)
+    frames[0, :3, 3] = place.ravel()
+    boards = arm @ frames[0] @ sights.board
+    frames[1, :3, :3] = Rotation.from_matrix(boards[:, :3, :3]).mean().as_matrix()
+    frames[1, :3, 3] = boards[:, :3, 3].mean(axis=0)
+    return frames[0], frames[1]
 
 
 def draw(cell: HandEyeCell, pictures: int, rendered: bool, wrong: int) -> list[float]:
-    """The place over its deviation; held-out errors [px]: ours, the floor, and OpenCV's.
+    """The place over its deviation; held-out errors [px]: own, the floor, and OpenCV's.
 
     Args:
         wrong: how many rows have the pose of the row before.
@@ -75,30 +75,30 @@ def draw(cell: HandEyeCell, pictures: int, rendered: bool, wrong: int) -> list[f
     flanges, views = cell.said(flange), cell.views(flange)
     flanges[1 : wrong + 1] = flanges[:wrong].copy()
     if rendered:
-        shown = [cell.draw(pose) for pose in cell.seen(flange[:pictures])]
-        views[:pictures] = [find_corners(cell.board, picture) for picture in shown]
+        images = [cell.draw(pose) for pose in cell.seen(flange[:pictures])]
+        views[:pictures] = [find_corners(cell.board, picture) for picture in images]
     lens = find_lens([(cell.board, view) for view in views[:pictures]], cell.lens.size).lens
     sightings = [sighting(cell.board, lens, view, True, False) for view in views[:pictures]]
     board, optics = optics_of(lens, sightings)
     height = (float(cell.target[2, 3]), 1e-4) if cell.four_axes else None
     sights = Sights(flanges[:pictures], board, cell.in_hand, optics, height)
-    found = calibrate_hand_eye(sights)
-    own_lens = moved_lens(lens, found.optics[len(BOARD) :]) or lens
+    calibration = calibrate_hand_eye(sights)
+    own_lens = moved_lens(lens, calibration.optics[len(BOARD) :]) or lens
 
     def error(camera, board, lens):
         between = np.linalg.inv(flanges) if cell.in_hand else flanges
-        off = []
+        squares = []
         for view, pose in zip(views[pictures:], between[pictures:], strict=True):
             expected, _ = projected(cell.board.points, lens, np.linalg.inv(camera) @ pose @ board)
-            off.append(np.sum((view.pixels - expected) ** 2, axis=1).mean())
-        return float(np.sqrt(np.mean(off)))
+            squares.append(np.sum((view.pixels - expected) ** 2, axis=1).mean())
+        return float(np.sqrt(np.mean(squares)))
 
-    off = displacements(found.camera[None], cell.camera[None])[0, :3]
-    ours = error(found.camera, found.board, own_lens)
+    camera_error = displacements(calibration.camera[None], cell.camera[None])[0, :3]
+    own = error(calibration.camera, calibration.board, own_lens)
     floor = error(cell.camera, cell.target, cell.lens)
     solvers = [] if cell.four_axes else SOLVERS
-    others = [error(*by_opencv(sights, solver), lens) for solver in solvers]
-    return [float(np.linalg.norm(off) / found.deviations(0)[0]), ours, floor, *others]
+    opencv = [error(*by_opencv(sights, solver), lens) for solver in solvers]
+    return [float(np.linalg.norm(camera_error) / calibration.deviations(0)[0]), own, floor, *opencv]
 
 
 def main(draws: int = 20, rendered: bool = False) -> None:
@@ -106,21 +106,21 @@ def main(draws: int = 20, rendered: bool = False) -> None:
     names = "px", "OpenCV", "floor", "ratio, median", "largest", "of the floor", "excess"
     print("|", " | ".join(("cell", "pictures", *names, "place within three")), "|")
     print("|" + " --- |" * 10)
-    for name, (cell, kind) in CELLS.items():
+    for name, (cell, options) in CELLS.items():
         for pictures in (15, 30):
             wrong = pictures // 10 if "wrong" in name else 0
-            rows = [draw(cell(seed, **kind), pictures, rendered, wrong) for seed in range(draws)]
-            place, ours, floor, *others = np.array(rows).T
-            each = np.array(others) if others else np.full((1, draws), np.nan)
-            best = each.min(axis=0)
-            ratio, lowest = ours / best, np.median(floor / best)
-            beyond = np.sum(np.array([ours, *each]) ** 2 - floor**2, axis=1)
+            rows = [draw(cell(seed, **options), pictures, rendered, wrong) for seed in range(draws)]
+            place, own, floor, *opencv = np.array(rows).T
+            solver_errors = np.array(opencv) if opencv else np.full((1, draws), np.nan)
+            best = solver_errors.min(axis=0)
+            ratio, lowest = own / best, np.median(floor / best)
+            beyond = np.sum(np.array([own, *solver_errors]) ** 2 - floor**2, axis=1)
             excess = np.sqrt(beyond[0] / beyond[1:].min())
-            numbers = [*(np.median(px) for px in (ours, best, floor, ratio)), ratio.max()]
-            shown = " | ".join(f"{number:.3g}" for number in (*numbers, lowest, excess))
-            print(f"| {name} | {pictures} | {shown} | {np.sum(place < 3)} of {draws} |", flush=True)
+            numbers = [*(np.median(px) for px in (own, best, floor, ratio)), ratio.max()]
+            cells = " | ".join(f"{number:.3g}" for number in (*numbers, lowest, excess))
+            print(f"| {name} | {pictures} | {cells} | {np.sum(place < 3)} of {draws} |", flush=True)
 
 
 if __name__ == "__main__":
-    shown = "--rendered" in sys.argv
-    main(4 if shown else 20, shown)
+    rendered = "--rendered" in sys.argv
+    main(4 if rendered else 20, rendered)

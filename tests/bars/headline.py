@@ -47,19 +47,19 @@ class AtOneMetre(Cell):
 
     def postures(self, count: int) -> np.ndarray:
         """Postures (count, joints) [rad] in which the whole board is in the picture."""
-        model, middle, found = self.arm.model, np.array(MIDDLES[self.name]), []
+        model, middle, postures = self.arm.model, np.array(MIDDLES[self.name]), []
         low, high = model.lowerPositionLimit, model.upperPositionLimit
-        while len(found) < count:
-            drawn = middle + WIDE * self.random.uniform(-1, 1, (400, len(middle)))
-            drawn = drawn[((drawn > low) & (drawn < high)).all(axis=1)]
-            for joints, pose in zip(drawn, self.board_poses(drawn), strict=True):
+        while len(postures) < count:
+            candidates = middle + WIDE * self.random.uniform(-1, 1, (400, len(middle)))
+            candidates = candidates[((candidates > low) & (candidates < high)).all(axis=1)]
+            for joints, pose in zip(candidates, self.board_poses(candidates), strict=True):
                 depths = self.board.points @ pose[2, :3] + pose[2, 3]
                 facing = pose[:3, 2] @ pose[:3, 3] / np.linalg.norm(pose[:3, 3])
                 if depths.min() > 0.6 and depths.max() < 1.4 and facing > 0.55:
                     pixels = self.project(pose)
                     if (pixels > 30).all() and (pixels < np.subtract(self.lens.size, 30)).all():
-                        found.append(joints)
-        return np.array(found[:count])
+                        postures.append(joints)
+        return np.array(postures[:count])
 
 
 def draw(name: str, seed: int, in_hand: bool) -> tuple[float, float]:
@@ -71,8 +71,8 @@ def draw(name: str, seed: int, in_hand: bool) -> tuple[float, float]:
         observed = write_views(Path(folder), cell, joints, views)
         result = calibrate_pictures(ARMS[name][0], [observed], tool=ARMS[name][1])
     poses, true = result.calibration.forward(fresh), cell.tool(fresh)
-    ends = next(solutions(poses, Observations(fresh, true)))
-    gaps = (ends.base @ poses @ ends.targets[0] - true)[:, :3, 3]
+    frames = next(solutions(poses, Observations(fresh, true)))
+    gaps = (frames.base @ poses @ frames.targets[0] - true)[:, :3, 3]
     stated = result.validation.mean_error(BLOCKWISE, result.validation.chosen)
     return 1e3 * stated, 1e3 * float(np.linalg.norm(gaps, axis=1).mean())
 

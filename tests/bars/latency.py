@@ -1,4 +1,4 @@
-"""How fast a live calibration is beside an arm that waits: python -m tests.bars.latency.
+"""How fast a live calibration is next to an arm that waits: python -m tests.bars.latency.
 
 Wall times of an update with one more row, of the next proposal, and of a corrected command, in a
 process that has begun. Each is a median.
@@ -32,9 +32,9 @@ def median(call) -> float:
     """Of the times [ms] that a call takes."""
     times = []
     for _ in range(TIMES):
-        began = time.perf_counter()
+        start = time.perf_counter()
         call()
-        times.append(time.perf_counter() - began)
+        times.append(time.perf_counter() - start)
     return 1e3 * float(np.median(times))
 
 

@@ -53,7 +53,7 @@ class Live:
         arm: the nominal one.
         station: the real one.
         true, nominal: from postures to poses (n, 4, 4) [m] of the target in the instrument's frame.
-        pictures: what those that the station takes say; poses count unless given.
+        pictures: corners in the pictures that the station takes; None: its poses are used.
     """
 
     def __init__(
@@ -72,8 +72,8 @@ class Live:
         self._shifted = pictures is not None
         with tempfile.TemporaryDirectory() as folder:
             table = Path(folder) / "table.csv"
-            ended = calibrate_live(lambda: station, arm, table, settings, pictures=pictures)
-            self.reason = ended.reason
+            result = calibrate_live(lambda: station, arm, table, settings, pictures=pictures)
+            self.reason = result.reason
             record = Record(table, arm, Description(), pictures)
             self.rows = record.observations
             record.close()
@@ -88,8 +88,8 @@ class Live:
     def error(self, poses: np.ndarray) -> float:
         """Mean [mm] of position; by pictures, after one shift and turn of base and tool."""
         if self._shifted:
-            ends = next(solutions(poses, Observations(self.fresh, self.true)))
-            poses = ends.base @ poses @ ends.targets[0]
+            frames = next(solutions(poses, Observations(self.fresh, self.true)))
+            poses = frames.base @ poses @ frames.targets[0]
         gaps = poses - self.true
         return 1e3 * float(np.linalg.norm(gaps[:, :3, 3], axis=1).mean())
 
@@ -133,11 +133,13 @@ def pictured(seed: int, in_hand: bool) -> Live:
     )
 
 
-def outcomes(kind: str, live: Sequence[Live]) -> None:
+def outcomes(kind: str, sessions: Sequence[Live]) -> None:
     """A row of the table."""
-    rows = [len(session.rows) for session in live]
-    before, after = ([getattr(session, what) for session in live] for what in ("before", "after"))
-    ratio = [session.predicted / session.after for session in live]
+    rows = [len(session.rows) for session in sessions]
+    before, after = (
+        [getattr(session, what) for session in sessions] for what in ("before", "after")
+    )
+    ratio = [session.predicted / session.after for session in sessions]
     print(
         f"| {kind} | {np.median(rows):.0f} ({max(rows)})"
         f" | {np.median(before):.1f} mm | {np.median(after):.2f} mm ({max(after):.2f})"
@@ -148,8 +150,9 @@ def outcomes(kind: str, live: Sequence[Live]) -> None:
 
 def end(gears: float) -> None:
     """When eight UR5 end, with a noise of 0.1 mm and 0.01 degrees, and how right they are then."""
-    live = [kinematic("UR5", seed, gears, ROUGH) for seed in range(8)]
-    rows, after = [len(one.rows) for one in live], [one.after for one in live]
+    sessions = [kinematic("UR5", seed, gears, ROUGH) for seed in range(8)]
+    rows = [len(session.rows) for session in sessions]
+    after = [session.after for session in sessions]
     kind = f"UR5, gears eccentric by {np.degrees(gears):.2f} deg"
     print(f"{kind}: rows {sorted(rows)}, median {np.median(rows):g}; largest {max(after):.2f} mm")
 

@@ -1,4 +1,4 @@
-"""How fast moves are, beside a bare loop of Pinocchio: python -m tests.bars.moves SCENARIO.json."""
+"""How fast moves are, and a bare loop of Pinocchio: python -m tests.bars.moves SCENARIO.json."""
 
 import sys
 from timeit import timeit
@@ -18,12 +18,12 @@ RUNS, MOVES, REPEATS = 20, 500, 5
 def bare_loop(robot: Robot, arm: DamagedArm, angles: np.ndarray) -> None:
     """What one move costs at least: a nominal Jacobian and a damaged forward kinematics."""
     nominal, damaged = robot.arm.model, arm.arm.model
-    data, other = nominal.createData(), damaged.createData()
+    data, damaged_data = nominal.createData(), damaged.createData()
     frame = tool_frame(nominal, robot.arm.tool)
     for q in angles:
         pin.computeFrameJacobian(nominal, data, q, frame, pin.LOCAL_WORLD_ALIGNED)
-        pin.forwardKinematics(damaged, other, q + arm.offsets)
-        pin.updateFramePlacement(damaged, other, frame)
+        pin.forwardKinematics(damaged, damaged_data, q + arm.offsets)
+        pin.updateFramePlacement(damaged, damaged_data, frame)
 
 
 def main(scenario: str) -> None:
@@ -42,8 +42,8 @@ def main(scenario: str) -> None:
         )
         for _ in range(REPEATS)
     ]
-    ours, bare = np.median(pairs, axis=0) / len(angles)
-    print(f"moves, {RUNS} runs side by side: {1 / ours:,.0f} a second")
+    move_time, bare = np.median(pairs, axis=0) / len(angles)
+    print(f"moves, {RUNS} runs side by side: {1 / move_time:,.0f} a second")
     print(f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second")
     print(f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}")
 

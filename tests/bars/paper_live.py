@@ -1,4 +1,4 @@
-"""The paper's learners and today's identification on an arm in MuJoCo, beside the same kinematics.
+"""The paper's learners and today's identification on an arm in MuJoCo and on kinematics alone.
 
 Robot, damage, learners, poses and searches are those of the study. The controller is untouched, and
 both arms are measured with the same noise. Only what moves differs. It writes docs/live_paper.md,
@@ -42,7 +42,7 @@ from recalib.vision.views import board_pose
 from replication.config.shipped import OUTCOMES
 from replication.config.study import Study
 from replication.plots.palette import STYLES
-from replication.plots.style import STYLE, logarithmic, save, title
+from replication.plots.style import STYLE, logarithmic, save
 from replication.running.studies import study_of
 from replication.scenarios.resolving import resolve
 from replication.training.competitors import label_of, make_peer
@@ -69,16 +69,16 @@ class Condition:
     Attributes:
         gears: of the arm in MuJoCo; None: kinematics alone.
         learners: that are trained with it.
-        beside: the condition with which it is compared.
-        scenario: of the study, that says what the damage is.
+        reference: the condition with which it is compared.
+        scenario: of the study, which has the damage.
         noise: of measured poses.
-        other_masses: whether its links have masses that the URDF does not tell.
+        other_masses: whether its links have masses other than those of the URDF.
         pictures: whether a camera measures it.
     """
 
     gears: Gears | None = None
     learners: tuple[str, ...] = (*MAPS, *TODAY)
-    beside: str = KINEMATICS
+    reference: str = KINEMATICS
     scenario: str = "links_encoders"
     noise: Disturbances = NOISY
     other_masses: bool = False
@@ -93,7 +93,7 @@ CONDITIONS = {
     "physics, other masses": Condition(Gears(SOFT), TODAY, other_masses=True),
     "physics, by pictures": Condition(Gears(SOFT), ("improved", "hybrid"), pictures=True),
     "kinematics, no noise": Condition(**SILENT),
-    "physics, no noise": Condition(Gears(SOFT), beside="kinematics, no noise", **SILENT),
+    "physics, no noise": Condition(Gears(SOFT), reference="kinematics, no noise", **SILENT),
     "moved, kinematics": Condition(None, ("improved",), scenario=MOVED),
     "moved, physics": Condition(Gears(SOFT), ("improved",), "moved, kinematics", MOVED),
 }
@@ -127,8 +127,8 @@ def tuned() -> Tuned:
     return Tuned(study(), [ROOT / OUTCOMES])
 
 
-def weighed(damaged: DamagedArm, seed: int) -> DamagedArm:
-    """The same with other masses."""
+def with_other_masses(damaged: DamagedArm, seed: int) -> DamagedArm:
+    """The same arm with other masses."""
     arm = DamagedArm(damaged.arm.copy(), damaged.offsets)
     factors = np.random.default_rng([seed, 7]).lognormal(sigma=UNSURE, size=arm.arm.model.nv)
     for inertia, factor in zip(list(arm.arm.model.inertias)[1:], factors, strict=True):
@@ -145,23 +145,24 @@ class Pictures(Disturbances):
 
     def __init__(self, moving: DamagedArm, gears: Gears, centre: np.ndarray, seed: int):
         super().__init__()
-        place, camera = UPWARDS.copy(), centre @ UPWARDS
-        place[:3, 3] = *(BOARD.size / [-2, 2]), 0.02
+        board, camera = UPWARDS.copy(), centre @ UPWARDS
+        board[:3, 3] = *(BOARD.size / [-2, 2]), 0.02
         camera[:3, 3] = centre[:3, 3] + 1.5 * centre[:3, 2]
-        station = PicturedStation(moving, camera, place, BOARD, KEPT, gears, seed=seed)
-        vars(self).update(station=station, before=camera, behind=np.linalg.inv(place))
+        station = PicturedStation(moving, camera, board, BOARD, KEPT, gears, seed=seed)
+        vars(self).update(station=station, camera=camera, tool=np.linalg.inv(board))
 
     def measure(self, generators, poses: np.ndarray) -> np.ndarray:
         """The pose (1, 1, 4, 4) [m] of the tool after the last move."""
         view = find_corners(BOARD, self.station.picture())
         target = board_pose(BOARD, self.station.lens, view)
-        return (self.before @ target @ self.behind)[None, None]
+        return (self.camera @ target @ self.tool)[None, None]
 
 
 def plant(condition: Condition, seed: int) -> Plant:
     """The robot behind the untouched controller: its kinematics, or its dynamics."""
     controller, damaged = scenario(condition.scenario)
-    noise, moving = condition.noise, weighed(damaged, seed) if condition.other_masses else damaged
+    noise = condition.noise
+    moving = with_other_masses(damaged, seed) if condition.other_masses else damaged
     if condition.pictures:
         noise = Pictures(moving, condition.gears, controller.robot.workspace.centre, seed)
         moving = noise.station
@@ -178,8 +179,8 @@ def trained(condition: Condition, name: str, seed: int) -> History:
         if names == MAPS
         else make_peer(name, 1, scenario(condition.scenario)[0].robot)
     )
-    when, words = ITERATIONS[names], {"scenario": condition.scenario}
-    poses = Stream.SCENARIO.draw(study().seed, [seed], when[-1], TESTS, **words)
+    when, options = ITERATIONS[names], {"scenario": condition.scenario}
+    poses = Stream.SCENARIO.draw(study().seed, [seed], when[-1], TESTS, **options)
     return train(plant(condition, seed), learner, poses.desired, poses.tests, when)
 
 
@@ -190,28 +191,28 @@ def curve(job: tuple[str, str, int]) -> pd.DataFrame:
     return table.assign(condition=condition, learner=learner, seed=seed)
 
 
-def droop(condition: str) -> float:
+def droop(name: str) -> float:
     """The mean distance [mm] between dynamics and kinematics on the first seed's test poses."""
-    its = CONDITIONS[condition]
-    controller, damaged = scenario(its.scenario)
-    poses = Stream.SCENARIO.draw(study().seed, [0], 1, TESTS, scenario=its.scenario)
+    condition = CONDITIONS[name]
+    controller, damaged = scenario(condition.scenario)
+    poses = Stream.SCENARIO.draw(study().seed, [0], 1, TESTS, scenario=condition.scenario)
     angles = controller.targets(poses.tests).angles[0]
-    dynamic, _ = plant(its, 0).achieve(poses.tests)
+    dynamic, _ = plant(condition, 0).achieve(poses.tests)
     return 1e3 * float(position_error(dynamic[0], damaged.forward(angles)).mean())
 
 
 def calibrated(job: tuple[str, int]) -> dict[str, str | float]:
     """Errors [mm] of an arm in postures anywhere, before and after a calibration from others."""
-    condition, draw = job
+    name, draw = job
     arm, rng = load_arm("ur10_robot.urdf", "tool0"), np.random.default_rng([draw, 9])
     model, count = ErrorModel(arm, OFFSETS), arm.model.nv
     links = np.repeat([[LENGTH, ANGLE]], 3, axis=1).repeat(count + 1, axis=0)
     errors = np.append(links, np.full(count, 10 * ANGLE))
     errors *= rng.standard_normal(len(errors))
     damaged = DamagedArm(model.arm(errors), errors[-count:])
-    its = CONDITIONS[condition]
-    real = weighed(damaged, draw) if its.other_masses else damaged
-    moving = PhysicsStation(real, replace(its.gears, stiffness=STIFF))
+    condition = CONDITIONS[name]
+    real = with_other_masses(damaged, draw) if condition.other_masses else damaged
+    moving = PhysicsStation(real, replace(condition.gears, stiffness=STIFF))
     joints = rng.uniform(-np.pi, np.pi, (POSTURES + TESTS, count))
     poses = moving.forward(joints)
     measured = NOISY.measure([rng], poses[None, :POSTURES])[0]
@@ -223,13 +224,13 @@ def calibrated(job: tuple[str, int]) -> dict[str, str | float]:
         "after": calibrate(arm, [OFFSETS, JOINT_ERRORS], observations).forward,
     }
     truth = poses[POSTURES:]
-    return {"condition": condition, "draw": draw} | {
-        name: 1e3 * float(position_error(forward(joints[POSTURES:]), truth).mean())
-        for name, forward in predictions.items()
+    return {"condition": name, "draw": draw} | {
+        stage: 1e3 * float(position_error(forward(joints[POSTURES:]), truth).mean())
+        for stage, forward in predictions.items()
     }
 
 
-def drawn(curves: pd.DataFrame) -> None:
+def draw_figure(curves: pd.DataFrame) -> None:
     """Both errors over iterations: the mean of the seeds, and all between the least and largest."""
     plt.rcParams.update(STYLE)
     figure, panels = plt.subplots(2, 2, figsize=(9, 8), sharex="col", sharey="row")
@@ -239,7 +240,7 @@ def drawn(curves: pd.DataFrame) -> None:
                 rows = curves[(curves.learner == learner) & (curves.condition == condition)]
                 errors, style = rows.groupby("iteration")[error], STYLES[learner]
                 name = f"{style.label}, {condition}"
-                width = 3.5 if learner == "geometric" else 1.5  # seen where the hybrid lies on it
+                width = 3.5 if learner == "geometric" else 1.5  # visible under the hybrid
                 axes.plot(errors.mean(), dashes, color=style.color, linewidth=width, label=name)
                 ends = errors.min(), errors.max()
                 axes.fill_between(ends[0].index, *ends, color=style.color, alpha=0.15, linewidth=0)
@@ -252,7 +253,8 @@ def drawn(curves: pd.DataFrame) -> None:
         column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")
     for axes, (error, unit) in zip(panels[:, 0], ERRORS.items(), strict=True):
         axes.set_ylabel(f"{error.split('_')[0]} error [{unit}]")
-    title(figure, "The paper, live: errors with the physics of MuJoCo and with kinematics")
+    shown = "The paper, live: errors with the physics of MuJoCo and with kinematics"
+    figure.suptitle(shown, fontweight="bold", x=0.01, ha="left")
     save(figure, FIGURE)
 
 
@@ -263,7 +265,7 @@ def _mean_ratio(curves: pd.DataFrame, learner: str) -> float:
 
 
 def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> dict:
-    """What the page says."""
+    """The context of the template."""
     tables = {}
     for learners, when in SHOWN.items():
         rows = []
@@ -296,9 +298,9 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
 
 def _agreement(curves: pd.DataFrame, condition: str) -> list[str]:
     """The improved map's last errors, and remaining parts, over those it is compared with."""
-    compared = condition, CONDITIONS[condition].beside
-    own, beside = (_ends(curves, "improved", name) for name in compared)
-    return [_spread(ratio) for _, ratio in (own / beside).items()]
+    compared = condition, CONDITIONS[condition].reference
+    own, reference = (_ends(curves, "improved", name) for name in compared)
+    return [_spread(ratio) for _, ratio in (own / reference).items()]
 
 
 def _ends(curves: pd.DataFrame, learner: str, condition: str) -> pd.DataFrame:
@@ -323,13 +325,13 @@ def _short(value: float) -> str:
     return f"{value:.1f}" if value >= 10 else f"{value:.2f}" if value >= 0.1 else f"{value:.2g}"
 
 
-def measured() -> None:
+def measure() -> None:
     """Make the tables."""
     KEPT.mkdir(parents=True, exist_ok=True)
     jobs = [
-        (condition, learner, seed)
-        for condition, its in CONDITIONS.items()
-        for learner, seed in product(its.learners, range(SEEDS))
+        (name, learner, seed)
+        for name, condition in CONDITIONS.items()
+        for learner, seed in product(condition.learners, range(SEEDS))
     ]
     with ProcessPoolExecutor(2) as pool:
         curves = pd.concat(pool.map(curve, jobs), ignore_index=True)
@@ -340,15 +342,15 @@ def measured() -> None:
         pd.DataFrame(droops).to_csv(KEPT / "droops.csv", index=False)
 
 
-def written() -> None:
+def write_page() -> None:
     """Draw the figure and write the page, from the tables."""
     tables = [pd.read_csv(KEPT / f"{name}.csv") for name in ("curves", "draws", "droops")]
-    drawn(tables[0])
+    draw_figure(tables[0])
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined, keep_trailing_newline=True)
     template = environment.from_string((HERE / "paper_live.md.j2").read_text(encoding="utf-8"))
     PAGE.write_text(template.render(context(*tables)), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    measured()
-    written()
+    measure()
+    write_page()

@@ -43,8 +43,10 @@ class Draw:
     def __post_init__(self):
         self.cell = Cell(self.seed, self.in_hand)
         self.joints, self.fresh = np.split(self.cell.postures(PICTURES + FRESH), [PICTURES])
-        off = np.radians(self.returns) * self.cell.random.standard_normal(self.joints.shape)
-        self.views = views = [self._view(pose) for pose in self.cell.board_poses(self.joints + off)]
+        deviations = np.radians(self.returns) * self.cell.random.standard_normal(self.joints.shape)
+        self.views = views = [
+            self._view(pose) for pose in self.cell.board_poses(self.joints + deviations)
+        ]
         self.lens = find_lens([(self.cell.board, view) for view in views], self.cell.lens.size).lens
         measured, optics = optics_of(
             self.lens,
@@ -71,17 +73,17 @@ class Draw:
     def judge(self, poses: np.ndarray) -> tuple[float, np.ndarray]:
         """The mean error [mm] of predicted poses of the tool, and the shift (4, 4) of its base."""
         true = self.cell.tool(self.fresh)
-        ends = next(solutions(poses, Observations(self.fresh, true)))
-        gaps = (ends.base @ poses @ ends.targets[0] - true)[:, :3, 3]
-        return 1e3 * float(np.linalg.norm(gaps, axis=1).mean()), ends.base
+        frames = next(solutions(poses, Observations(self.fresh, true)))
+        gaps = (frames.base @ poses @ frames.targets[0] - true)[:, :3, 3]
+        return 1e3 * float(np.linalg.norm(gaps, axis=1).mean()), frames.base
 
     def place(self, calibration: Calibration, shift: np.ndarray) -> float:
         """How far the one of camera and board that stands is off, over its stated deviation."""
-        missing = unidentifiable_parameters(calibration, self.pixels)
-        there, _ = found_places(calibration, missing, ["moves"], [], self.cell.arm.tool, ["stands"])
+        unknown = unidentifiable_parameters(calibration, self.pixels)
+        place, _ = found_places(calibration, unknown, ["moves"], [], self.cell.arm.tool, ["stands"])
         true = self.cell.sheet if self.in_hand else self.cell.eye
-        off = displacements((shift @ there.pose)[None], true[None])[0, :3]
-        return float(np.linalg.norm(off)) / there.deviations[0]
+        error = displacements((shift @ place.pose)[None], true[None])[0, :3]
+        return float(np.linalg.norm(error)) / place.deviations[0]
 
 
 def errors(in_hand: bool, draws: int, rendered: bool) -> np.ndarray:
@@ -103,17 +105,17 @@ def errors(in_hand: bool, draws: int, rendered: bool) -> np.ndarray:
     return np.array(rows)
 
 
-def main(draws: int = 40, rendered: int = 4) -> None:
+def main(draws: int = 40, rendered_draws: int = 4) -> None:
     """Print a row for each place of the camera, of projected corners and of rendered pictures."""
     print(
         "| camera | corners | nominal, no shift | nominal | by poses | by pixels"
         " | largest by pixels | pixels better | place |"
     )
     print("|" + " --- |" * 9)
-    kinds = (False, "projected", draws), (True, "in rendered pictures", rendered)
-    for seen, kind, count in kinds:
+    kinds = (False, "projected", draws), (True, "in rendered pictures", rendered_draws)
+    for rendered, kind, count in kinds:
         for name, in_hand in (("fixed", False), ("on the hand", True)):
-            rows = errors(in_hand, count, seen)
+            rows = errors(in_hand, count, rendered)
             medians = " | ".join(f"{median:.3g}" for median in np.median(rows, axis=0)[:-1])
             better, within = np.sum(rows[:, 3] < rows[:, 2]), np.sum(rows[:, 4] < 3)
             numbers = f"{medians} | {rows[:, 3].max():.3g}"

@@ -25,10 +25,10 @@ class InPhysics(Resolved):
     """A scenario whose robot moves as its dynamics let it."""
 
     def plant(self, controller: Controller, seed: int, runs: Sequence[int]) -> Plant:
-        its = CONDITIONS["physics"]
+        condition = CONDITIONS["physics"]
         rngs = [generator(seed, self.scenario, run, "disturbances") for run in runs]
-        moving = PhysicsStation(self.arm(controller.robot), its.gears)
-        return Plant(controller, moving, its.noise, rngs)
+        moving = PhysicsStation(self.arm(controller.robot), condition.gears)
+        return Plant(controller, moving, condition.noise, rngs)
 
 
 def arm() -> InPhysics:
@@ -38,7 +38,7 @@ def arm() -> InPhysics:
 
 
 def main() -> None:
-    """Train the study's recorded learners on it, and write what one would have seen."""
+    """Train the study's recorded learners on it, and write the recording."""
     KEPT.mkdir(parents=True, exist_ok=True)
     watched = watch_all(study(), arm(), tuned(), SEED)
     published = published_errors(study(), study().scenario)

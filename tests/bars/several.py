@@ -39,22 +39,24 @@ def calibration(sessions: Sequence[tuple], slip: tuple | None = None) -> Calibra
     """By sessions, of which something slips in the last one."""
     with TemporaryDirectory() as folder:
         *others, (cell, camera, *board) = sessions
-        places = [write_session(Path(folder) / its[1], *its) for its in others]
+        observed = [write_session(Path(folder) / session[1], *session) for session in others]
         last = write_session(Path(folder) / camera, cell, camera, *board, slip=slip)
-        return calibrate_pictures("panda.urdf", [*places, last], tool="panda_link8")
+        return calibrate_pictures("panda.urdf", [*observed, last], tool="panda_link8")
 
 
 def main(draws: int = 20) -> None:
-    """Print errors of each setup, how many clean ones are doubted, and which slips are named."""
+    """Print errors of each setup, false alarms, and which slips are named."""
     print("| cameras | error | largest | false alarms |")
     print("| --- | --- | --- | --- |")
     for name, sessions in SETUPS.items():
-        errors, doubted = [], 0
+        errors, false_alarms = [], 0
         for seed in range(draws):
             result, draw = calibration(sessions(seed)), Draw(seed, False)
             errors.append(draw.judge(result.geometry.forward(draw.fresh))[0])
-            doubted += bool(result.faults)
-        print(f"| {name} | {np.median(errors):.3g} | {max(errors):.3g} | {doubted} of {draws} |")
+            false_alarms += bool(result.faults)
+        print(
+            f"| {name} | {np.median(errors):.3g} | {max(errors):.3g} | {false_alarms} of {draws} |"
+        )
     print("| what slips | 1 mm | 0.2 degrees |")
     print("| --- | --- | --- |")
     for name, (setup, place) in SLIPS.items():
@@ -62,8 +64,8 @@ def main(draws: int = 20) -> None:
         for seed in range(draws):
             right = [("slip", PICTURES // 2, len(SETUPS[setup](seed)) - 1)]
             for number, motion in enumerate((SHIFT, TURN)):
-                found = calibration(SETUPS[setup](seed), (place, motion)).faults
-                named[number] += [(its.kind, its.row, its.sight) for its in found] == right
+                faults = calibration(SETUPS[setup](seed), (place, motion)).faults
+                named[number] += [(fault.kind, fault.row, fault.sight) for fault in faults] == right
         print(f"| {name} | {' | '.join(f'{count} of {draws}' for count in named)} |")
 
 

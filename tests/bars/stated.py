@@ -105,16 +105,16 @@ class Cell(Real):
 
     def _standing(self, joints: np.ndarray) -> np.ndarray:
         setup, model = self.setup, self.nominal.model
-        found = super()._standing(joints)
+        angles = super()._standing(joints)
         if setup.sag and not self.nominal.massless:
             data = model.createData()
             torques = [pin.computeGeneralizedGravity(model, data, q).copy() for q in joints]
-            found -= setup.sag * np.array(torques) / np.abs(torques).max()
-        found += setup.backlash / 2 * self.random.choice([-1, 1], joints.shape)
+            angles -= setup.sag * np.array(torques) / np.abs(torques).max()
+        angles += setup.backlash / 2 * self.random.choice([-1, 1], joints.shape)
         if setup.gain:
             joint, by, share = setup.gain
-            found[:, joint] += share * joints[:, by]
-        return found
+            angles[:, joint] += share * joints[:, by]
+        return angles
 
     def joints(self, count: int, wide: float = 1.0) -> np.ndarray:
         """Of postures (count, joints) [rad, m] in the box, or in one that is so much wider."""
@@ -140,9 +140,9 @@ class Cell(Real):
         """Joints and what is measured to calibrate, some of it grossly off."""
         joints = self.joints(self.setup.rows)
         measured = self.measured(joints, warming=True)
-        thrown = self.random.random(len(joints)) < self.setup.outliers
+        outliers = self.random.random(len(joints)) < self.setup.outliers
         places = measured if self.setup.positions else measured[:, :3, 3]
-        places[thrown] += 0.01 * self.random.choice([-1, 1], (np.count_nonzero(thrown), 3))
+        places[outliers] += 0.01 * self.random.choice([-1, 1], (np.count_nonzero(outliers), 3))
         return joints, measured
 
 
@@ -171,32 +171,32 @@ SETUPS = {
 }
 
 
-def shown(setup: Setup, seed: int) -> tuple[list[float], str]:
+def errors_and_faults(setup: Setup, seed: int) -> tuple[list[float], str]:
     """Errors [mm] stated, away and near, and met, in the box and a wider one; and what is named."""
     cell = Cell(setup, seed)
     result = calibrate(cell.nominal, *cell.known())
     chosen = result.validation.chosen
-    found = [result.validation.mean_error(way, chosen) for way in (BLOCKWISE, RANDOM)]
+    errors = [result.validation.mean_error(split, chosen) for split in (BLOCKWISE, RANDOM)]
     for wide in (1.0, 1.5):
         joints = cell.joints(FRESH, wide)
         measured = cell.measured(joints)
         predicted = result.predict(joints)[:, :3, 3]
         places = measured if setup.positions else measured[:, :3, 3]
-        found.append(np.linalg.norm(predicted - places, axis=1).mean())
+        errors.append(np.linalg.norm(predicted - places, axis=1).mean())
     named = [fault.kind for fault in result.faults] + ["gain"] * bool(result.wrong_gain)
-    return [1e3 * one for one in found], " ".join(named)
+    return [1e3 * error for error in errors], " ".join(named)
 
 
 def table(seeds: int, report: Callable[[str], None] = print) -> None:
     report("| arm | stated [mm], away / near | met, same box / wider | over same box | named |")
     report("| --- | --- | --- | --- | --- |")
     for name, setup in SETUPS.items():
-        every = [shown(setup, seed) for seed in range(seeds)]
-        away, near, same, wider = np.mean([figures for figures, _ in every], axis=0)
-        named = ", ".join(sorted({words for _, words in every if words}))
-        stated, met = f"{away:.3f} / {near:.3f}", f"{same:.3f} / {wider:.3f}"
-        ratios = f"{away / same:.2f} / {near / same:.2f}"
-        report(f"| {name} | {stated} | {met} | {ratios} | {named} |")
+        draws = [errors_and_faults(setup, seed) for seed in range(seeds)]
+        blockwise, random, same, wider = np.mean([errors for errors, _ in draws], axis=0)
+        named = ", ".join(sorted({names for _, names in draws if names}))
+        stated, true = f"{blockwise:.3f} / {random:.3f}", f"{same:.3f} / {wider:.3f}"
+        ratios = f"{blockwise / same:.2f} / {random / same:.2f}"
+        report(f"| {name} | {stated} | {true} | {ratios} | {named} |")
 
 
 if __name__ == "__main__":

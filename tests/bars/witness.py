@@ -138,11 +138,11 @@ class Setup:
 
     def errors(self, wanted, reached):
         """Return the errors (2, ...) of position (cm) and of orientation (degrees)."""
-        missed = np.split((reached - wanted) * self.half_ranges * CM_DEGREES, 2, axis=-1)
+        residuals = np.split((reached - wanted) * self.half_ranges * CM_DEGREES, 2, axis=-1)
         if self.choices.error == "coordinates":
-            return abs(np.array(missed)).mean(axis=-1)
+            return abs(np.array(residuals)).mean(axis=-1)
         angle = (self.turn(wanted).inv() * self.turn(reached)).magnitude()
-        return np.array([np.linalg.norm(missed[0], axis=-1), np.degrees(angle)])
+        return np.array([np.linalg.norm(residuals[0], axis=-1), np.degrees(angle)])
 
     def draw(self, iterations, runs, rng):
         """Return the coordinates (iterations, runs, 1, 6) of poses to learn from."""
@@ -209,9 +209,9 @@ class Network:
             reached = setup.execute(commands)
             step = np.matvec(winners[..., :6], wanted - reached)  # (6)
             moved = setup.execute(commands + step) - reached
-            missed, row = step - np.matvec(winners[..., :6], moved), moved * setup.norm**2
+            residual, row = step - np.matvec(winners[..., :6], moved), moved * setup.norm**2
             row /= np.maximum(np.vecdot(row, moved)[..., None], 1e-12)
-            jacobian = missed[..., None] * row[..., None, :]  # (8)
+            jacobian = residual[..., None] * row[..., None, :]  # (8)
             change = np.concatenate([jacobian, step[..., None]], axis=-1) + winners * values
             widths = fall(settings[:, :1, None], final_widths, t, width_power).repeat(3, axis=-1)
             squares = ((self.centres[places] - self.centres) * setup.widths) ** 2
@@ -267,16 +267,16 @@ def main():
     for name in ("config", "design", "outcomes"):
         parser.add_argument(name, type=Path)
     parser.add_argument("setups", type=int, nargs="+")
-    given = parser.parse_args()
-    config, table = yaml.safe_load(given.config.read_text()), pd.read_csv(given.outcomes)
-    design, runs = pd.read_csv(given.design).set_index("setup"), config["campaign"]["runs"]
-    setups = {i: Setup(design.loc[i], config["robots"], given.config.parent) for i in given.setups}
-    table = table[table["setup"].isin(given.setups) & table["variant"].isin(VARIANTS)]
+    args = parser.parse_args()
+    config, table = yaml.safe_load(args.config.read_text()), pd.read_csv(args.outcomes)
+    design, runs = pd.read_csv(args.design).set_index("setup"), config["campaign"]["runs"]
+    setups = {i: Setup(design.loc[i], config["robots"], args.config.parent) for i in args.setups}
+    table = table[table["setup"].isin(args.setups) & table["variant"].isin(VARIANTS)]
     table = table[table["iterations"] <= 1000]
     table = table[table.replicate == table.groupby("setup").replicate.transform("min")]
     own = table.query("variant == 'improved' and iterations == 200")
     if set(own.setup) != set(setups):
-        sys.exit(f"{given.outcomes}: expected each setup's row of 'improved' at 200 iterations")
+        sys.exit(f"{args.outcomes}: expected each setup's row of 'improved' at 200 iterations")
     table = pd.concat([own.assign(searched=True), table.assign(searched=False)], ignore_index=True)
     rows = [row for _, row in table.iterrows()]
     with ProcessPoolExecutor(2) as pool:

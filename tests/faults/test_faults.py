@@ -1,4 +1,4 @@
-"""What befalls a run, and what then holds: the results of an undisturbed one, and no strays."""
+"""After every fault, a run has the results of an undisturbed one, and leaves no strays."""
 
 import os
 import random
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.faults.yard import Yard, at_work, made, whole
+from tests.faults.yard import Yard, at_work, digests_of, expect_no_strays
 from tests.project import Project, ended, expect, kill
 
 RESULTS = Path("results/studies/faults")
@@ -22,13 +22,13 @@ CHAIN = 6  # times that everything is killed before a run may end
 
 @pytest.fixture(scope="session")
 def yard():
-    # what is begun in the background ignores Ctrl-C, and so would all runs
+    # what is started in the background ignores Ctrl-C, and so would all runs
     signal.signal(signal.SIGINT, signal.default_int_handler)
     with tempfile.TemporaryDirectory(prefix="faults") as folder:
         yield Yard(Path(folder))
 
 
-def begun(yard: Yard) -> tuple[Project, subprocess.Popen]:
+def started_run(yard: Yard) -> tuple[Project, subprocess.Popen]:
     """A run from the beginning that is at work."""
     project = yard.bare()
     process = project.start()
@@ -36,10 +36,10 @@ def begun(yard: Yard) -> tuple[Project, subprocess.Popen]:
     return project, process
 
 
-def goes_on(yard: Yard, project: Project) -> None:
-    """The next run ends well, with what an undisturbed run makes."""
+def expect_next_run_finishes(yard: Yard, project: Project) -> None:
+    """Expect that the next run ends well, with the results of an undisturbed run."""
     project.run().well()
-    yard.finished(project)
+    yard.expect_results(project)
 
 
 @pytest.mark.slow
@@ -50,7 +50,7 @@ def test_all_processes_are_killed_at_random_moments_and_run_again_each_time(yard
         at_work(project, process)
         time.sleep(rng.uniform(0, 3))
         kill(process)
-    goes_on(yard, project)
+    expect_next_run_finishes(yard, project)
 
 
 @pytest.mark.slow
@@ -59,41 +59,41 @@ def test_one_job_is_killed(yard):
     process = project.start()
     at_work(project, process)[0].kill()
     ended(process).badly()
-    goes_on(yard, project)
+    expect_next_run_finishes(yard, project)
 
 
 @pytest.mark.slow
 def test_it_is_interrupted(yard):
-    project, process = begun(yard)
-    time.sleep(2)  # while Python itself is still beginning, it answers in its own words
+    project, process = started_run(yard)
+    time.sleep(2)  # earlier, Python itself would answer with a traceback
     os.killpg(process.pid, signal.SIGINT)
     ended(process).badly()
-    goes_on(yard, project)
+    expect_next_run_finishes(yard, project)
 
 
 @pytest.mark.slow
-def test_a_second_run_of_the_same_study_is_told_to_wait(yard):
-    project, first = begun(yard)
+def test_a_second_run_of_the_same_study_is_refused(yard):
+    project, first = started_run(yard)
     waiting = project.run().told(f"another run is at work in {RESULTS}: wait until it has ended")
     expect(waiting.said.count("at work in") == 1, "one sentence")
     ended(first).well()
-    yard.finished(project)
+    yard.expect_results(project)
 
 
 @pytest.mark.slow
 def test_two_studies_run_at_once_and_one_is_killed_and_run_again(yard):
-    project, other = yard.bare(), ("--config", "name=other", "seed=7")
-    second = project.start(*other)
+    project, options = yard.bare(), ("--config", "name=other", "seed=7")
+    second = project.start(*options)
     at_work(project, second)
     first = project.start()
     time.sleep(1)
     kill(second)
-    project.run(*other).well()
+    project.run(*options).well()
     ended(first).well()
-    yard.finished(project)
+    yard.expect_results(project)
     alone = yard.bare()
-    alone.run(*other).well()
-    here, there = (made(its.results.with_name("other")) for its in (project, alone))
+    alone.run(*options).well()
+    here, there = (digests_of(copy.results.with_name("other")) for copy in (project, alone))
     expect(here == there, "the results of the second as if it were alone")
 
 
@@ -112,24 +112,24 @@ def small_disk(project: Project, megabytes: int):
         return
     try:
         yield {}
-        kept = project.folder / "kept"
-        shutil.copytree(disk, kept, symlinks=True)
+        copy = project.folder / "kept"
+        shutil.copytree(disk, copy, symlinks=True)
     finally:
         subprocess.run(["umount", str(disk)], check=True)
     disk.rmdir()
-    kept.rename(disk)
+    copy.rename(disk)
 
 
 @pytest.mark.slow
 def test_the_disk_is_full_and_then_there_is_room_again(yard):
-    size = sum(path.stat().st_size for path in yard.done().results.rglob("*") if path.is_file())
+    size = sum(path.stat().st_size for path in yard.complete().results.rglob("*") if path.is_file())
     for part in (0.02, 0.5):
         project = yard.bare()
         with small_disk(project, max(1, int(part * size / 2**20))) as options:
             project.run(**options).badly()
-            whole(project)
+            expect_no_strays(project)
         project.run().well()
-        yard.finished(project)
+        yard.expect_results(project)
 
 
 @contextmanager
@@ -157,19 +157,19 @@ def _permit(folder: Path, writing: bool) -> None:
 
 
 def test_a_folder_of_results_is_read_only(yard):
-    project = yard.done()
+    project = yard.complete()
     with read_only(project.folder / "results"):
         project.run().well()  # there is nothing to do
         project.run("--forcerun", "summary").told("Write-protected output files")
-    yard.finished(project)
+    yard.expect_results(project)
 
 
 @pytest.mark.slow
 def test_a_project_is_read_only(yard):
-    project = yard.done()
+    project = yard.complete()
     with read_only(project.folder):
         project.run("--forcerun", "summary").badly()
-    yard.finished(project)
+    yard.expect_results(project)
 
 
 CACHES = "NUMBA_CACHE_DIR", "MPLCONFIGDIR", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"
@@ -199,7 +199,7 @@ def test_a_run_is_like_any_other(circumstance, yard):
     options = dict(CIRCUMSTANCES[circumstance])
     project = yard.bare(options.pop("folder", "project"))
     project.run(**options).well()
-    yard.finished(project)
+    yard.expect_results(project)
 
 
 @pytest.mark.slow
@@ -209,12 +209,12 @@ def test_the_clock_goes_back_by_a_day_in_the_middle_and_is_then_right_again(yard
     project = yard.bare()
     project.run("--until", "train_ur10_translation").well()
     project.run(before=["faketime", "-f", "-1d"]).told("has older modification time")
-    goes_on(yard, project)
+    expect_next_run_finishes(yard, project)
 
 
 @pytest.mark.slow
 def test_results_are_dated_ahead_by_a_day_and_a_setting_is_changed(yard):
-    project = yard.done()
+    project = yard.complete()
 
     def date(then: float) -> None:
         for path in project.results.rglob("*"):
@@ -222,24 +222,24 @@ def test_results_are_dated_ahead_by_a_day_and_a_setting_is_changed(yard):
 
     now = time.time()
     date(now + 86400)
-    changed = project.run("--config", "training={tests: 11}")
-    changed.told("has older modification time")
+    run = project.run("--config", "training={tests: 11}")
+    run.told("has older modification time")
     date(now)
-    goes_on(yard, project)
+    expect_next_run_finishes(yard, project)
 
 
 def test_snakemakes_notes_are_deleted_and_a_setting_is_changed(yard):
-    project = yard.done()
+    project = yard.complete()
     shutil.rmtree(project.folder / ".snakemake")
-    other = "--config", "training={tests: 11}"
-    project.run(*other).told(f"remove {RESULTS}, or, if nothing was changed since,")
+    options = "--config", "training={tests: 11}"
+    project.run(*options).told(f"remove {RESULTS}, or, if nothing was changed since,")
     (project.results / ".running").unlink()
-    goes_on(yard, project)
+    expect_next_run_finishes(yard, project)
 
 
 def test_there_is_no_network_for_the_real_arm(yard):
     nowhere = dict.fromkeys(("http_proxy", "https_proxy", "all_proxy"), "http://127.0.0.1:9")
-    project = yard.done()
-    ran = project.run("--", "results/studies/faults/real/fit.csv", environment=nowhere)
-    ran.told("real_data: ")
-    yard.finished(project)
+    project = yard.complete()
+    run = project.run("--", "results/studies/faults/real/fit.csv", environment=nowhere)
+    run.told("real_data: ")
+    yard.expect_results(project)

@@ -53,7 +53,7 @@ def packed(path: Path) -> None:
             member.write(bytes(10_000_000))
 
 
-# By what is wrong: the file, what makes it or stands in it, and what the sentence says.
+# By what is wrong: the file, what makes it or stands in it, and what the sentence has.
 WRONG = {
     "a URDF that is a pipe": ("arm.urdf", pipe, "it is a pipe; expected: a regular file"),
     "a URDF without an end": ("arm.urdf", endless, "it is a device; expected: a regular"),
@@ -109,51 +109,52 @@ WRONG = {
 
 def prepare(folder: Path, name: str, make) -> None:
     folder.mkdir()
-    for other, text in (("arm.urdf", ARM), ("rows.csv", TABLE), ("it.toml", "")):
-        if other != name:
-            (folder / other).write_text(text)
+    for file, text in (("arm.urdf", ARM), ("rows.csv", TABLE), ("it.toml", "")):
+        if file != name:
+            (folder / file).write_text(text)
     if callable(make):
         make(folder / name)
     else:
         (folder / name).write_text(make)
 
 
-def all_of_them(folder: str) -> None:
+def run_all(folder: str) -> None:
     """Run the commands one after the other, and print how long each computed."""
     for number, (name, *_) in enumerate(WRONG.values()):
         os.chdir(Path(folder, str(number)))
-        started = time.process_time()
+        start = time.process_time()
         calibrate = ["calibrate", "./arm.urdf", "rows.csv", "--description=it.toml"]
         code = main([*(["next", "."] if name == "correction.npz" else calibrate), "--out=out"])
-        print(json.dumps([code, time.process_time() - started]), flush=True)
+        print(json.dumps([code, time.process_time() - start]), flush=True)
         print("END", file=sys.stderr, flush=True)
     print(re.search(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text())[1])
 
 
 @pytest.fixture(scope="module")
-def told(tmp_path_factory):
-    """What came of each: exit code and seconds, and lines; and the memory of all [kB]."""
+def outcomes(tmp_path_factory):
+    """Exit code, seconds and lines of the command, by wrong input; and the memory of all [kB]."""
     folder = tmp_path_factory.mktemp("inputs")
     for number, (name, make, _) in enumerate(WRONG.values()):
         prepare(folder / str(number), name, make)
-    text = f"from tests.faults import test_inputs; test_inputs.all_of_them({str(folder)!r})"
-    ran = subprocess.run(
+    text = f"from tests.faults import test_inputs; test_inputs.run_all({str(folder)!r})"
+    process = subprocess.run(
         [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, timeout=600
     )
     shutil.rmtree(folder)
-    came = zip(map(json.loads, ran.stdout.splitlines()), ran.stderr.split("END\n"), strict=False)
-    return dict(zip([*WRONG, MEMORY], came, strict=False))
+    codes = map(json.loads, process.stdout.splitlines())
+    reports = zip(codes, process.stderr.split("END\n"), strict=False)
+    return dict(zip([*WRONG, MEMORY], reports, strict=False))
 
 
 @pytest.mark.parametrize("wrong", WRONG)
-def test_it_ends_in_a_sentence_and_soon(wrong, told):
-    assert wrong in told, "it did not come so far"
-    (code, seconds), lines = told[wrong]
+def test_it_ends_in_a_sentence_and_soon(wrong, outcomes):
+    assert wrong in outcomes, "its command was not reached"
+    (code, seconds), lines = outcomes[wrong]
     assert code == REFUSED and seconds < SECONDS
     last = lines.splitlines()[-1]
     assert last.startswith("recalib: ") and WRONG[wrong][2] in last and len(last) < 500
     assert "Traceback" not in lines
 
 
-def test_all_of_it_takes_little_memory(told):
-    assert 1024 * told[MEMORY][0] < BYTES
+def test_all_of_it_takes_little_memory(outcomes):
+    assert 1024 * outcomes[MEMORY][0] < BYTES

@@ -14,14 +14,14 @@ from tests.station.test_live import LINE
 
 def test_killed_at_any_moment_it_goes_on_as_if_it_had_not_been(tmp_path):
     once, killed = tmp_path / "once", tmp_path / "killed"
-    with begun(once) as process:
+    with start_live(once) as process:
         process.communicate()
-    moments, before, lost = random.Random(8), [], 0
+    rng, before, lost = random.Random(8), [], 0
     for _ in range(5):
-        with begun(killed) as process:
+        with start_live(killed) as process:
             while "row" not in process.stderr.readline():  # it is about to make its first move
                 pass
-            time.sleep(moments.uniform(0, 0.3))
+            time.sleep(rng.uniform(0, 0.3))
             process.kill()
             process.communicate()
         assert process.returncode == -signal.SIGKILL
@@ -30,15 +30,15 @@ def test_killed_at_any_moment_it_goes_on_as_if_it_had_not_been(tmp_path):
         # what was measured and not yet on the disk is lost with the process: one row, and no more
         assert unwritten(killed) - lost in (0, 1)
         lost = unwritten(killed)
-    with begun(killed) as process:
+    with start_live(killed) as process:
         process.communicate()
     assert process.returncode == DONE
     assert written(killed) == written(once) and len({*written(once)}) == len(written(once))
-    taken = (killed / "measured").read_text().splitlines()
-    assert unwritten(killed) == lost and len({*taken}) == len(written(once)) - 1
+    measured = (killed / "measured").read_text().splitlines()
+    assert unwritten(killed) == lost and len({*measured}) == len(written(once)) - 1
 
 
-def begun(folder):
+def start_live(folder):
     """`recalib live` in a folder, in a process of its own."""
     folder.mkdir(exist_ok=True)
     line = LINE.format("tests.faults.lasting:Lasting").replace("14", "40")  # it ends before that
@@ -60,5 +60,5 @@ def written(folder) -> list[str]:
 def unwritten(folder) -> int:
     """How many measurements are not in the table."""
     log = folder / "measured"
-    taken = len(log.read_text().splitlines()) if log.exists() else 0
-    return taken - len(written(folder)[1:])
+    measured = len(log.read_text().splitlines()) if log.exists() else 0
+    return measured - len(written(folder)[1:])

@@ -17,10 +17,10 @@ from replication.config.reading import read_study
 from replication.config.shipped import root_of
 from replication.config.study import Study
 from replication.config.values import from_file
-from replication.pages.writing import pages_of
+from replication.pages.names import pages_of
 from replication.plots.figures import figures_of
-from replication.running.checks.consistency import check
-from replication.running.checks.geometry import check_robots
+from replication.running.consistency import check
+from replication.running.geometry import check_robots
 from replication.running.studies import named_files
 from replication.scenarios.nominal import nominal
 from replication.training.plan import places
@@ -50,15 +50,15 @@ def parts(tree, path=(), kind=()):
     yield path, kind
     if isinstance(tree, dict):
         for key, value in tree.items():
-            its = "each" if path and path[-1] in NAMED else key
-            yield from parts(value, (*path, key), (*kind, its))
+            part = "each" if path and path[-1] in NAMED else key
+            yield from parts(value, (*path, key), (*kind, part))
     elif isinstance(tree, list):
         for index, value in enumerate(tree):
             yield from parts(value, (*path, index), (*kind, "each"))
 
 
-def others(value):
-    """What might stand in the place of a value."""
+def replacements(value):
+    """Other values, of which some are valid in its place."""
     yield from WRONG
     match value:
         case bool():
@@ -73,19 +73,19 @@ def others(value):
             yield from (value * 2, value[:1], value[::-1], [*value, *value[:1]], value * 500)
             yield from ([*value, None], [*value, math.nan], {"0": value}, value[:1] * 3)
         case dict():
-            some = next(iter(value.values()))
-            yield from ({"a/b": some}, {"$(reboot)": some}, {"twin": some}, {"": some}, [some])
+            entry = next(iter(value.values()))
+            yield from ({"a/b": entry}, {"$(reboot)": entry}, {"twin": entry}, {"": entry}, [entry])
 
 
 def settings(key):
-    """Paths below a key of the configuration, each with something else to stand there."""
-    known = set()
+    """Paths below a key of the configuration, each with a replacement of the value there."""
+    kinds = set()
     for path, kind in parts(TREE[key], (key,), (key,)):
-        if kind not in known:
-            known.add(kind)
+        if kind not in kinds:
+            kinds.add(kind)
             value = at(TREE, path)
-            told = {repr(value): None} | {repr(other): other for other in others(value)}
-            yield from ((path, other) for other in [*told.values()][1:])
+            distinct = {repr(value): None} | {repr(new): new for new in replacements(value)}
+            yield from ((path, new) for new in [*distinct.values()][1:])
 
 
 def at(tree, path):
@@ -106,23 +106,23 @@ def overlay(path, value):
 OF_ROBOTS = {"robot", "scenario", "robots", "controller", "paper_damage", "scenarios"}
 
 
-class Robots:
-    """What the robots say, asked once for all studies that are the same to them."""
+class RobotChecks:
+    """The mistakes that `check_robots` finds, once for all studies that are equal to it."""
 
     def __init__(self):
-        self._said = {}
+        self._mistakes = {}
 
     def __call__(self, study: Study) -> list:
-        parts = study.model_dump_json(include=OF_ROBOTS)
-        its = study.real.robot, study.experiments.evidence, study.experiments.ensemble
-        same = parts, *places(study), repr(its)
-        if same not in self._said:
-            self._said[same] = check_robots(study)
-        return self._said[same]
+        fields = study.model_dump_json(include=OF_ROBOTS)
+        experiments = study.real.robot, study.experiments.evidence, study.experiments.ensemble
+        key = fields, *places(study), repr(experiments)
+        if key not in self._mistakes:
+            self._mistakes[key] = check_robots(study)
+        return self._mistakes[key]
 
 
 def assert_sense(study: Study) -> None:
-    """A job gets the same study, and what it would train, draw and measure is something."""
+    """A job gets the same study, and something to train, draw and measure."""
     text = study.model_dump_json()
     assert "NaN" not in text and "Infinity" not in text
     assert Study.model_validate_json(text) == study
@@ -130,7 +130,7 @@ def assert_sense(study: Study) -> None:
     for place, learners in places(study).items():
         assert learners and all(learners.values())
         nominal(study, place.robot)
-        paths = [place.scenario_file(root), *(place.history_file(root, its) for its in learners)]
+        paths = [place.scenario_file(root), *(place.history_file(root, name) for name in learners)]
         assert len(paths) == len({*paths})
     few = study.training.model_copy(update={"measurements": min(study.training.measurements, 100)})
     for learner, iterations in trained(study):
@@ -147,8 +147,8 @@ def assert_sense(study: Study) -> None:
 
 
 @pytest.fixture(scope="module")
-def robots() -> Robots:
-    return Robots()
+def robots() -> RobotChecks:
+    return RobotChecks()
 
 
 def test_thousands_of_settings_are_tried():
@@ -158,7 +158,7 @@ def test_thousands_of_settings_are_tried():
 @pytest.mark.parametrize("key", TREE)
 def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, monkeypatch):
     monkeypatch.chdir(ROOT)
-    accepted, wrong = 0, []
+    accepted, failures = 0, []
     for path, value in settings(key):
         try:
             study = read_study(
@@ -168,8 +168,8 @@ def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, monkeypa
             accepted += 1
         except InvalidConfiguration as error:
             unclear = [line for line in error.mistakes if not REFUSAL.fullmatch(line)]
-            wrong += [(path, value, line) for line in unclear]
+            failures += [(path, value, line) for line in unclear]
         except Exception as error:  # the very thing that must not happen
-            wrong.append((path, value, repr(error)))
-    assert wrong == []
+            failures.append((path, value, repr(error)))
+    assert failures == []
     assert (accepted > 0) == (key not in FEW), "or nothing is known of what passes"

@@ -1,4 +1,4 @@
-"""Copies of the project in which something goes wrong, and what must hold nevertheless."""
+"""Copies of the project in which something goes wrong, and what must hold even so."""
 
 import hashlib
 import shutil
@@ -12,7 +12,7 @@ from recalib.files.storage import is_temporary
 from tests.project import Project, expect, wait_until
 
 STUDY = "--configfile", "tests/faults/study.yaml"
-# Identities of rows, names of folders, times: not equal byte for byte.
+# Folders of files that differ between runs: identities of rows, names of folders, times.
 UNLIKE = {"recordings", "logs", "settings"}
 
 
@@ -29,24 +29,24 @@ def at_work(project: Project, process: subprocess.Popen) -> list[psutil.Process]
     return found
 
 
-def whole(project: Project) -> None:
-    """Expect that no file is a stray."""
+def expect_no_strays(project: Project) -> None:
+    """Expect that no temporary file is left."""
     strays = [path for path in project.folder.rglob(".*") if is_temporary(path.name)]
     expect(not strays, f"no strays, but {strays}")
 
 
-def made(results: Path) -> dict[str, str]:
-    """By path below a study's results, digests of what must be the same in every run."""
+def digests_of(results: Path) -> dict[str, str]:
+    """Digests of the files that are equal in every run, by path below a study's results."""
     paths = {path.relative_to(results): path for path in sorted(results.rglob("*"))}
     return {
-        its.as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
-        for its, path in paths.items()
-        if path.is_file() and not UNLIKE & {*its.parts} and not f"/{its}".count("/.")
+        relative.as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for relative, path in paths.items()
+        if path.is_file() and not UNLIKE & {*relative.parts} and not f"/{relative}".count("/.")
     }
 
 
 class Yard:
-    """Gives each fault a copy of the project, and knows what an undisturbed run makes.
+    """Gives each fault a copy of the project, and has the results of an undisturbed run.
 
     Args:
         folder: of all copies.
@@ -62,7 +62,7 @@ class Yard:
         folder.mkdir(parents=True)
         return Project(folder, "--cores", "2", *STUDY, name="faults")
 
-    def done(self) -> Project:
+    def complete(self) -> Project:
         """A copy with results."""
         copy = self.bare()
         for part in (".snakemake", "results"):
@@ -77,14 +77,14 @@ class Yard:
 
     @cached_property
     def expected(self) -> dict[str, str]:
-        """What an undisturbed run makes."""
-        return made(self._undisturbed.results)
+        """The digests of the results of an undisturbed run."""
+        return digests_of(self._undisturbed.results)
 
-    def finished(self, project: Project) -> None:
-        """Expect of a project what an undisturbed run makes, and nothing else."""
-        whole(project)
-        its = made(project.results)
-        unlike = sorted(
-            path for path in self.expected | its if self.expected.get(path) != its.get(path)
+    def expect_results(self, project: Project) -> None:
+        """Expect the results of an undisturbed run, and no other file."""
+        expect_no_strays(project)
+        digests = digests_of(project.results)
+        different = sorted(
+            path for path in self.expected | digests if self.expected.get(path) != digests.get(path)
         )
-        expect(not unlike, f"the results of an undisturbed run, but {', '.join(unlike)}")
+        expect(not different, f"the results of an undisturbed run, but {', '.join(different)}")

@@ -1,8 +1,8 @@
-"""Small errors that nobody chose: how many of them do the tests notice?
+"""Small random errors: how many of them do the tests notice?
 
 cosmic-ray makes them, one at a time, in a copy of the project: its own, and those that a scientist
 makes (`operators`). They are taken in an order drawn by a fixed seed, so that a sample can be made
-larger. What was found is kept in results/mutants and said on docs/mutants.md. A change of a part's
+larger. Results are kept in results/mutants and shown in docs/mutants.md. A change of a part's
 code begins it anew; after a change of tests, `--again` has them meet the survivors.
 
     python -m tests.mutants campaign --count 30
@@ -34,17 +34,18 @@ from tests.mutants.parts import PARTS, modules
 ROOT, SEED = Path(__file__).parents[2], 2030
 KEPT = ROOT / "results" / "mutants"
 OTHERS = "others"  # the operators that cosmic-ray has
+LOG = "pytest.log"  # in the copy of the project
 
 
 def session_file(part: str) -> Path:
-    """Of a part's mutants and of what was found: another one where part or operators changed."""
+    """The file of a part's mutants and results; a new one when the part or operators change."""
     read = [*modules(part), Path(operators.__file__)]
     digest = hashlib.sha256(b"".join(path.read_bytes() for path in read))
     return KEPT / f"{part}.{digest.hexdigest()[:12]}.sqlite"
 
 
 def session(part: str) -> Path:
-    """Its file, made where there is none."""
+    """The session file of a part, made if there is none."""
     path = session_file(part)
     if not path.exists():
         KEPT.mkdir(parents=True, exist_ok=True)
@@ -55,17 +56,17 @@ def session(part: str) -> Path:
     return path
 
 
-def drawn(part: str, mutants: WorkDB) -> list[WorkItem]:
+def in_order(part: str, mutants: WorkDB) -> list[WorkItem]:
     """All mutants of a part, in the order in which they are to be judged.
 
     The operators of science and one group of all the others take turns, so that neither a rare
-    operator is missed nor what nobody would write fills the sample.
+    operator is missed nor unlikely errors fill the sample.
     """
     by_kind: dict[str, list[WorkItem]] = {}
     for item in sorted(mutants.work_items, key=lambda item: repr(item.mutations)):
         by_kind.setdefault(kind(item), []).append(item)
-    for name, its in by_kind.items():
-        random.Random(f"{SEED} {part} {name}").shuffle(its)
+    for name, group in by_kind.items():
+        random.Random(f"{SEED} {part} {name}").shuffle(group)
     others = by_kind.pop(OTHERS, [])
     turns = itertools.zip_longest(*(by_kind[name] for name in sorted(by_kind)))
     own = [item for turn in turns for item in turn if item]
@@ -80,7 +81,7 @@ def kind(item: WorkItem) -> str:
 
 
 def copy_of_the_project(folder: Path) -> None:
-    """What git knows or would know of, in a new folder."""
+    """Copy the files that git tracks, or would track, to a new folder."""
     shutil.rmtree(folder, ignore_errors=True)
     listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(listed, cwd=ROOT, check=True, capture_output=True, text=True).stdout
@@ -93,20 +94,21 @@ def copy_of_the_project(folder: Path) -> None:
 def try_out(mutation: MutationSpec, folder: Path, reached: Mapping[str, Reach]) -> WorkResult:
     """Whether the tests notice a mutant in a copy of the project, which is left as it was."""
     module = folder / mutation.module_path
-    was, told = module.stat(), folder / "told.txt"
+    status, log = module.stat(), folder / LOG
     tests = nearest(Path(mutation.module_path), mutation.start_pos[0], reached)
     operator = get_operator(mutation.operator_name)(**mutation.operator_args)
     before, after = apply_mutation(module, operator, mutation.occurrence)
     try:
-        outcome = judge(folder, tests, told, 3 * sum(reached[test].seconds for test in tests))
+        outcome = judge(folder, tests, log, 3 * sum(reached[test].seconds for test in tests))
     finally:
         module.write_text(before, encoding="utf-8")
-        os.utime(module, ns=(was.st_atime_ns, was.st_mtime_ns))  # what is compiled of it stays good
+        # with its old times, so that the compiled files stay valid
+        os.utime(module, ns=(status.st_atime_ns, status.st_mtime_ns))
     if outcome == STILLBORN:
-        return WorkResult(WorkerOutcome.ABNORMAL, told.read_text("utf-8"))
-    noticed = TestOutcome.KILLED if outcome == KILLED else TestOutcome.SURVIVED
+        return WorkResult(WorkerOutcome.ABNORMAL, log.read_text("utf-8"))
+    test_outcome = TestOutcome.KILLED if outcome == KILLED else TestOutcome.SURVIVED
     return WorkResult(
-        WorkerOutcome.NORMAL, told.read_text("utf-8"), noticed, difference(before, after)
+        WorkerOutcome.NORMAL, log.read_text("utf-8"), test_outcome, difference(before, after)
     )
 
 
@@ -114,9 +116,9 @@ def reach_of(part: str, folder: Path) -> dict[str, Reach]:
     """What the tests of a part reach. Leave unless they pass where nothing is planted."""
 
     def run(files: list[str], keep: Keep) -> None:
-        told = folder / "told.txt"
-        if judge(folder, files, told, keep=keep) != SURVIVED:
-            raise SystemExit(f"{told.read_text('utf-8')}\n{part}: tests fail without a mutant")
+        log = folder / LOG
+        if judge(folder, files, log, keep=keep) != SURVIVED:
+            raise SystemExit(f"{log.read_text('utf-8')}\n{part}: tests fail without a mutant")
 
     return reach(PARTS[part].tests, KEPT, run)
 
@@ -125,9 +127,9 @@ def judge_part(part: str, count: int, again: bool, folder: Path) -> None:
     """Judge the first so many mutants of a part that were not yet, or those that survived."""
     with use_db(session(part)) as mutants:
         results = dict(mutants.results)
-        chosen = drawn(part, mutants)[:count]
+        chosen = in_order(part, mutants)[:count]
         if again:
-            survived = [id_ for id_, its in results.items() if not its.is_killed]
+            survived = [id_ for id_, result in results.items() if not result.is_killed]
             waiting = [item for item in chosen if item.job_id in survived]
         else:
             waiting = [item for item in chosen if item.job_id not in results]
@@ -141,14 +143,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("parts", nargs="*", default=list(PARTS), metavar="PART")
     parser.add_argument("--count", type=int, default=100, help="of mutants, in each part")
     parser.add_argument("--again", action="store_true", help="those that survived")
-    its = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
     operators.register()
     import_all()
-    copy = KEPT / "project"  # in the same place each time: what is compiled of it stays good
+    copy = KEPT / "project"  # in the same place each time, so that compiled files stay valid
     copy_of_the_project(copy)
     os.chdir(copy)  # what is edited meanwhile changes nothing
-    for part in its.parts:
-        judge_part(part, its.count, its.again, copy)
+    for part in options.parts:
+        judge_part(part, options.count, options.again, copy)
     sessions = {part: session_file(part) for part in PARTS}
     if missing := [part for part, path in sessions.items() if not path.exists()]:
         print(f"docs/mutants.md stays as it is: {', '.join(missing)} must be judged first")

@@ -51,13 +51,13 @@ def import_all() -> None:
 
 
 def judge(
-    folder: Path, tests: list[str], told: Path, seconds: float = np.inf, keep: Keep | None = None
+    folder: Path, tests: list[str], log: Path, seconds: float = np.inf, keep: Keep | None = None
 ) -> str:
     """Run tests in a copy of the project, until one fails.
 
     Args:
-        told: where to write what pytest says.
-        seconds: of processor time; who takes longer is killed.
+        log: where to write the output of pytest.
+        seconds: of processor time, after which the tests are killed.
         keep: gets what the tests reach. What is compiled is kept for the next then, too: not of a
             mutant.
 
@@ -69,7 +69,7 @@ def judge(
             if np.isfinite(seconds):
                 most = int(seconds + PATIENCE)
                 resource.setrlimit(resource.RLIMIT_CPU, (most, most))
-            _be_judged(folder, tests, told, keep)
+            _run_tests(folder, tests, log, keep)
         except BaseException:
             traceback.print_exc()
         os._exit(2)
@@ -78,7 +78,7 @@ def judge(
     return {0: SURVIVED, 2: STILLBORN}.get(code, KILLED)
 
 
-def _be_judged(folder: Path, tests: list[str], told: Path, keep: Keep | None) -> None:
+def _run_tests(folder: Path, tests: list[str], log: Path, keep: Keep | None) -> None:
     import pytest
     from numba.core.caching import Cache
 
@@ -90,7 +90,7 @@ def _be_judged(folder: Path, tests: list[str], told: Path, keep: Keep | None) ->
     if keep is None:  # neither what Python compiled nor what Numba did
         sys.dont_write_bytecode = True
         Cache.save_overload = lambda *_: None
-    with told.open("w", encoding="utf-8") as stream:
+    with log.open("w", encoding="utf-8") as stream:
         for number in (1, 2):
             os.dup2(stream.fileno(), number)
         watch = Watch() if keep else None

@@ -62,25 +62,25 @@ class Watch:
             for line, contexts in data.contexts_by_lineno(module).items():
                 for context in contexts:
                     lines.setdefault(context, {}).setdefault(name, set()).add(line)
-        found = {}
+        reached = {}
         for test, fixtures in self.fixtures.items():
             own: dict[str, set] = {}
             for context in (test, *fixtures):
-                for module, its in lines.get(context, {}).items():
-                    own.setdefault(module, set()).update(its)
-            found[test] = Reach(self.seconds[test], {name: sorted(own[name]) for name in own})
-        return found
+                for module, numbers in lines.get(context, {}).items():
+                    own.setdefault(module, set()).update(numbers)
+            reached[test] = Reach(self.seconds[test], {name: sorted(own[name]) for name in own})
+        return reached
 
 
 def files_of(tests: Iterable[str]) -> list[str]:
     """Test files among files and folders."""
     paths = [Path(test) for test in tests]
-    found = [sorted(path.rglob("test_*.py")) if path.is_dir() else [path] for path in paths]
-    return list(dict.fromkeys(str(path) for paths in found for path in paths))
+    files = [sorted(path.rglob("test_*.py")) if path.is_dir() else [path] for path in paths]
+    return list(dict.fromkeys(str(path) for paths in files for path in paths))
 
 
-def _kept(file: str, folder: Path) -> Path:
-    """Where it stands what the tests of a file reach, for this code and this file."""
+def _cache_file(file: str, folder: Path) -> Path:
+    """Where the reach of a file's tests is kept, for this code and this file."""
     code = [path.read_bytes() for path in sorted(Path("recalib").rglob("*.py"))]
     digest = hashlib.sha256(b"".join([*code, Path(file).read_bytes()])).hexdigest()[:12]
     return folder / "reach" / f"{file.replace('/', '.')}.{digest}.json"
@@ -93,19 +93,19 @@ def reach(tests: Iterable[str], folder: Path, run: Callable[..., None]) -> dict[
         run: runs test files in a process of its own, and there hands what they reach to a function.
     """
     files = files_of(tests)
-    kept = {file: _kept(file, folder) for file in files}
-    new = [file for file in files if not kept[file].exists()]
+    cache = {file: _cache_file(file, folder) for file in files}
+    new = [file for file in files if not cache[file].exists()]
 
-    def keep(found: Mapping[str, Reach]) -> None:
+    def keep(reached: Mapping[str, Reach]) -> None:
         for file in new:
-            its = {test: found[test] for test in found if test.split("::")[0] == file}
-            kept[file].parent.mkdir(parents=True, exist_ok=True)
-            kept[file].write_text(json.dumps(its), encoding="utf-8")
+            own = {test: reached[test] for test in reached if test.split("::")[0] == file}
+            cache[file].parent.mkdir(parents=True, exist_ok=True)
+            cache[file].write_text(json.dumps(own), encoding="utf-8")
 
     if new:
         run(new, keep)
-    texts = [json.loads(kept[file].read_text(encoding="utf-8")) for file in files]
-    return {test: Reach(*its) for text in texts for test, its in text.items()}
+    tables = [json.loads(cache[file].read_text(encoding="utf-8")) for file in files]
+    return {test: Reach(*row) for table in tables for test, row in table.items()}
 
 
 def function_around(module: Path, line: int) -> range:
@@ -126,8 +126,8 @@ def nearest(module: Path, line: int, reached: Mapping[str, Reach]) -> list[str]:
     As many as there is time for. Where none gets to its function, those that get to its module.
     """
     body, name = {*function_around(module, line)}, str(module)
-    inside = [test for test, its in reached.items() if body & {*its.lines.get(name, ())}]
-    inside = inside or [test for test, its in reached.items() if name in its.lines] or [*reached]
+    inside = [test for test in reached if body & {*reached[test].lines.get(name, ())}]
+    inside = inside or [test for test in reached if name in reached[test].lines] or [*reached]
     inside.sort(key=lambda test: (line not in reached[test].lines.get(name, ()), reached[test][0]))
     chosen, seconds = [], 0.0
     for test in inside:

@@ -1,4 +1,4 @@
-"""Errors that a scientist makes, as operators of cosmic-ray beside its own.
+"""Errors that a scientist makes, as operators of cosmic-ray in addition to its own.
 
 Each of them rewrites a node of the syntax tree in a few ways; a way that Python refuses, or that
 ends at once, is as good as noticed.
@@ -48,12 +48,12 @@ QUANTILES = {
 STREAMS = "SCENARIO", "TWIN", "SEARCH"  # members of `Stream`: named, nameless, of a search
 LEAKS = (("desired", "tests"), ("SearchPoses", "ResultPoses"), ("LEARNING", "MEASURING"))
 LEAKS += (("known", "unknown"), ("training", "held_out"))
-OTHER = {**dict(LEAKS), **{second: first for first, second in LEAKS}}
+COUNTERPARTS = {**dict(LEAKS), **{second: first for first, second in LEAKS}}
 LISTS = {"arglist", "testlist_star_expr", "testlist", "exprlist"}
 
 
 def _code(*nodes: NodeOrLeaf) -> str:
-    """What stands there, without the space before."""
+    """The code of nodes, without the space before."""
     first, *rest = nodes
     return first.get_code(include_prefix=False) + "".join(node.get_code() for node in rest)
 
@@ -99,21 +99,22 @@ def swaps(node: NodeOrLeaf) -> Iterator[str]:
     parts = node.children
     for index in range(0, len(parts) - 2, 2):
         first, comma, second = parts[index : index + 3]
-        pair = [each.children if each.type == "argument" else [each] for each in (first, second)]
-        if len(pair[0]) != len(pair[1]) or any(_value(its[0]) in ("*", "**") for its in pair):
+        pair = [node.children if node.type == "argument" else [node] for node in (first, second)]
+        if len(pair[0]) != len(pair[1]) or any(_value(nodes[0]) in ("*", "**") for nodes in pair):
             continue
-        (*name, ours), (*other, theirs) = pair
-        if _code(ours) == _code(theirs) or not _alike(ours, theirs):
+        (*first_keyword, first_value), (*second_keyword, second_value) = pair
+        if _code(first_value) == _code(second_value) or not _alike(first_value, second_value):
             continue
         before = _code(*parts[:index]) + first.get_first_leaf().prefix if index else ""
         rest = "".join(each.get_code() for each in parts[index + 3 :])
-        start, end = (_code(*its) if its else "" for its in (name, other))
+        keywords = first_keyword, second_keyword
+        start, end = (_code(*keyword) if keyword else "" for keyword in keywords)
         between = _code(comma) + second.get_first_leaf().prefix
-        yield f"{before}{start}{_code(theirs)}{between}{end}{_code(ours)}{rest}"
+        yield f"{before}{start}{_code(second_value)}{between}{end}{_code(first_value)}{rest}"
 
 
 def _alike(*nodes: NodeOrLeaf) -> bool:
-    """Whether values may have one shape, as far as their names tell: no error at once."""
+    """Whether values may have one shape, by their names, so that a swap may run."""
     if {node.type for node in nodes} & {"string", "strings", "number", "fstring", "lambdef"}:
         return False
     kinds = [annotations().get(_value(node.get_last_leaf())) for node in nodes]
@@ -122,15 +123,15 @@ def _alike(*nodes: NodeOrLeaf) -> bool:
 
 @cache
 def annotations() -> dict[str, set[str]]:
-    """What the project says of the names of its parameters and fields."""
-    found: dict[str, set[str]] = {}
+    """The annotations of the project's parameters and fields, by their names."""
+    kinds: dict[str, set[str]] = {}
     for path in Path("recalib").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_bytes())):
             if isinstance(node, ast.arg) and node.annotation:
-                found.setdefault(node.arg, set()).add(ast.unparse(node.annotation))
+                kinds.setdefault(node.arg, set()).add(ast.unparse(node.annotation))
             elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-                found.setdefault(node.target.id, set()).add(ast.unparse(node.annotation))
-    return found
+                kinds.setdefault(node.target.id, set()).add(ast.unparse(node.annotation))
+    return kinds
 
 
 def drops(node: NodeOrLeaf) -> Iterator[str]:
@@ -169,11 +170,11 @@ def streams(node: NodeOrLeaf) -> Iterator[str]:
 
 def leaks(node: NodeOrLeaf) -> Iterator[str]:
     """Training on test data, or testing on training data."""
-    if node.type == "name" and (other := OTHER.get(node.value)):
+    if node.type == "name" and (counterpart := COUNTERPARTS.get(node.value)):
         member = _value(node.get_previous_leaf()) == "." or _value(node.get_next_leaf()) == "."
         around = search_ancestor(node, "funcdef")
-        if member or (_is_argument(node) and around and other in around.get_code()):
-            yield other
+        if member or (_is_argument(node) and around and counterpart in around.get_code()):
+            yield counterpart
 
 
 def _operator(rewrites: Callable[[NodeOrLeaf], Iterator[str]]) -> type[Operator]:
@@ -201,5 +202,5 @@ OPERATORS = {
 
 
 def register() -> None:
-    """Tell cosmic-ray of them. It finds those of installed packages alone by itself."""
+    """Register them with cosmic-ray, which by itself finds those of installed packages alone."""
     OPERATOR_PROVIDERS[PROVIDER] = OPERATORS

@@ -1,4 +1,4 @@
-"""The page that says how many mutants the tests notice, and which they do not."""
+"""The page on how many mutants the tests notice, and which they do not."""
 
 import difflib
 from collections.abc import Mapping
@@ -9,8 +9,6 @@ import yaml
 from cosmic_ray.work_db import use_db
 from cosmic_ray.work_item import WorkItem, WorkResult
 from scipy.stats import binomtest
-
-from tests.mutants import operators
 
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "mutants.md"
@@ -33,27 +31,25 @@ def _survivor(item: WorkItem, result: WorkResult, reasons: Mapping) -> dict:
 
 
 def write_page(sessions: Mapping[str, Path]) -> None:
-    """Say what the sessions of cosmic-ray, by the part of the project, have found."""
+    """Write the results of the sessions of cosmic-ray, by the part of the project."""
     explained = yaml.safe_load((HERE / "survivors.yaml").read_text(encoding="utf-8")) or []
-    reasons = {(its["module"], its["was"], its["now"]): its["why"] for its in explained}
+    reasons = {(entry["module"], entry["was"], entry["now"]): entry["why"] for entry in explained}
     rows, survivors = [], []
     for part, path in sessions.items():
         with use_db(path) as mutants:
             judged = [pair for pair in mutants.completed_work_items if pair[1].test_outcome]
-            left = [_survivor(*pair, reasons) for pair in judged if not pair[1].is_killed]
-            row = {"of": mutants.num_work_items, "judged": len(judged), "survived": len(left)}
-        names = [item.mutations[0].operator_name for item, _ in judged]
-        row["science"] = sum(name.startswith(operators.PROVIDER) for name in names)
-        row["explained"] = sum(bool(survivor["reason"]) for survivor in left)
+            survived = [_survivor(*pair, reasons) for pair in judged if not pair[1].is_killed]
+            row = {"of": mutants.num_work_items, "judged": len(judged), "survived": len(survived)}
+        row["explained"] = sum(bool(survivor["reason"]) for survivor in survived)
         if judged:
             rows.append(row | {"part": part, "interval": _interval(row)})
-        survivors += sorted(left, key=lambda survivor: (survivor["module"], survivor["line"]))
+        survivors += sorted(survived, key=lambda survivor: (survivor["module"], survivor["line"]))
     whole = {key: sum(row[key] for row in rows) for key in row}
     template = jinja2.Template((HERE / "page.md.j2").read_text(encoding="utf-8"))
     page = template.render(
         rows=rows,
-        whole=whole | {"part": "together", "interval": _interval(whole)},
-        left=survivors,
+        whole=whole | {"interval": _interval(whole)},
+        survivors=survivors,
     )
     PAGE.write_text(page + "\n", encoding="utf-8")
 
@@ -61,5 +57,5 @@ def write_page(sessions: Mapping[str, Path]) -> None:
 def _interval(row: Mapping) -> str:
     if not row["judged"]:
         return "-"
-    its = binomtest(row["survived"], row["judged"]).proportion_ci(method="wilson")
-    return f"{100 * its.low:.0f} to {100 * its.high:.0f} %"
+    interval = binomtest(row["survived"], row["judged"]).proportion_ci(method="wilson")
+    return f"{100 * interval.low:.0f} to {100 * interval.high:.0f} %"

@@ -65,7 +65,7 @@ TOO_LONG = (  # tests that take minutes: no mutant meets them
 
 def modules(part: str) -> list[Path]:
     """Those of a part, here, that compute something."""
-    found = []
+    paths = []
     for path in map(Path, PARTS[part].modules):
-        found += [path] if path.is_file() else sorted(path.rglob("*.py"))
-    return [path for path in found if "def " in path.read_text("utf-8")]
+        paths += [path] if path.is_file() else sorted(path.rglob("*.py"))
+    return [path for path in paths if "def " in path.read_text("utf-8")]

@@ -1,7 +1,7 @@
-"""Our calibration beside public ones, each in an environment of its own: make peers.
+"""Our calibration compared with public ones, each in its own environment: make peers.
 
 All get the same rows to learn from and are judged on the same others. The errors are written to
-results/peers/errors.csv, and said on docs/peers.md.
+results/peers/errors.csv, and shown in docs/peers.md.
 
     python -m tests.peers --draws 10 --recording FOLDER
 """
@@ -37,20 +37,20 @@ def python_of(peer: str) -> Path:
     return python
 
 
-def predictions_of(peer: str, given: Path) -> Path:
-    """The folder of what a peer predicts, a file for each task; what it says goes beside it."""
+def predictions_of(peer: str, task_files: Path) -> Path:
+    """The folder of a peer's predictions, a file for each task; its log lies next to it."""
     folder, script = KEPT / f"by_{peer}", HERE / f"by_{peer}.py"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
     print(f"calibrating with {peer}", flush=True)
     with (KEPT / f"{peer}.log").open("w", encoding="utf-8") as log:
-        command = [python_of(peer), "-I", script, given, folder]
+        command = [python_of(peer), "-I", script, task_files, folder]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=log)
     return folder
 
 
 def errors_of(task: Task, predictions: dict[str, np.ndarray]) -> list[dict]:
-    """A row for each who predicts; without an error where nothing came of it."""
+    """A row for each method; without an error if the method failed."""
     return [
         {
             "scenario": task.scenario,
@@ -67,16 +67,16 @@ def main() -> None:
     parser.add_argument("--draws", type=int, default=10, help="of each simulated arm")
     parser.add_argument("--recording", type=Path, help="folder of the real UR5's two tables")
     options = parser.parse_args()
-    given = KEPT / "tasks"
-    shutil.rmtree(given, ignore_errors=True)
-    given.mkdir(parents=True)
-    drawn = list(tasks(options.draws, options.recording))
-    for task in drawn:
-        task.write(given)
-    folders = [predictions_of(peer, given) for peer in PEERS]
+    task_files = KEPT / "tasks"
+    shutil.rmtree(task_files, ignore_errors=True)
+    task_files.mkdir(parents=True)
+    all_tasks = list(tasks(options.draws, options.recording))
+    for task in all_tasks:
+        task.write(task_files)
+    folders = [predictions_of(peer, task_files) for peer in PEERS]
     print("calibrating ourselves", flush=True)
     rows = []
-    for task in drawn:
+    for task in all_tasks:
         rows += errors_of(task, predict_all(task))
         for folder in folders:
             with np.load(folder / f"{task.name}.npz") as predictions:

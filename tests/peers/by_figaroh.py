@@ -4,7 +4,7 @@
 
 As its documentation has it: a subclass whose cost function weights positions and turns, full
 parameters, both frames unknown, an estimation method by its name. Residuals are in units of the
-noise, of which it estimates only the scale: where the noise is known, that is told to be 1.
+noise, of which it estimates only the scale: if the noise is known, the scale is set to 1.
 """
 
 import logging
@@ -49,11 +49,11 @@ def columns(measured: np.ndarray) -> np.ndarray:
 
 def predict(task: dict, method: str, folder: Path) -> np.ndarray:
     """Positions (m, 3) [m] that the calibrated arm should have in the fresh postures."""
-    names, seen = task["names"].tolist(), columns(task["measured"])
+    names, measured = task["names"].tolist(), columns(task["measured"])
     table = dict(zip(names, task["joints"].T, strict=True))
-    table |= dict(zip(COLUMNS, seen.T, strict=False))
+    table |= dict(zip(COLUMNS, measured.T, strict=False))
     pd.DataFrame(table).to_csv(folder / "measured.csv", index=False)
-    measurable = [index < seen.shape[1] for index in range(6)]
+    measurable = [index < measured.shape[1] for index in range(6)]
     settings = {
         "parameters": {
             "calibration_level": "full_params",
@@ -62,29 +62,31 @@ def predict(task: dict, method: str, folder: Path) -> np.ndarray:
         },
         "kinematics": {"base_frame": "universe", "tool_frame": str(task["tool"])},
         "measurements": {"markers": [{"measurable_dof": measurable}]},
-        "data": {"source_file": str(folder / "measured.csv"), "number_of_samples": len(seen)},
+        "data": {"source_file": str(folder / "measured.csv"), "number_of_samples": len(measured)},
         "joints": {"active_joints": names},
     }
     text = yaml.safe_dump({"robot": {"name": "arm"}, "tasks": {"calibration": settings}})
     (folder / "settings.yaml").write_text(text, encoding="utf-8")
     robot = load_robot(str(task["urdf"]), package_dirs=str(task["packages"]))
-    its = Calibration(robot, str(folder / "settings.yaml"))
-    its.noise = tuple(task["noise"])
-    its.calib_config |= {"known_baseframe": False, "known_tipframe": False}
-    its.initialize()
-    its.solve(enable_logging=False)
-    fresh = np.tile(its.calib_config["q0"], (len(task["fresh"]), 1))
-    fresh[:, its.calib_config["config_idx"]] = task["fresh"]
-    known = its.calib_config | {"NbSample": len(fresh)}
-    found = calc_updated_fkm(its.model, its.data, its.var_, fresh, known)
-    return found.reshape(-1, len(fresh))[:3].T
+    calibration = Calibration(robot, str(folder / "settings.yaml"))
+    calibration.noise = tuple(task["noise"])
+    calibration.calib_config |= {"known_baseframe": False, "known_tipframe": False}
+    calibration.initialize()
+    calibration.solve(enable_logging=False)
+    fresh = np.tile(calibration.calib_config["q0"], (len(task["fresh"]), 1))
+    fresh[:, calibration.calib_config["config_idx"]] = task["fresh"]
+    config = calibration.calib_config | {"NbSample": len(fresh)}
+    estimated = calc_updated_fkm(
+        calibration.model, calibration.data, calibration.var_, fresh, config
+    )
+    return estimated.reshape(-1, len(fresh))[:3].T
 
 
 def predict_all(task: dict) -> dict[str, np.ndarray]:
-    """By the method; of one that fails, nothing. Where frames are unknown, the default is tried."""
+    """Positions by method, none of one that fails; with unknown frames, the default alone."""
     predictions = {}
-    few, told = len(task["joints"]) <= MOST, task["told"]
-    for method in METHODS[: 1 if not told else 3 if few else 2]:
+    few, frames_known = len(task["joints"]) <= MOST, task["told"]
+    for method in METHODS[: 1 if not frames_known else 3 if few else 2]:
         with TemporaryDirectory() as folder:
             try:
                 predictions[f"figaroh, {method}"] = predict(task, method, Path(folder))

@@ -2,8 +2,8 @@
 
     python by_robotkinecal.py TASKS PREDICTIONS
 
-It takes every joint for one that turns about z, and no meshes that a package has; so it gets the
-nominal arm as links of the Robotics Toolbox with z along every axis.
+It assumes that every joint turns about z, and finds no meshes of packages, so it gets the nominal
+arm as links of the Robotics Toolbox with z along every axis.
 """
 
 import sys
@@ -41,15 +41,17 @@ def predict(task: dict) -> np.ndarray:
     """Positions (m, 3) [m] that the calibrated arm should have in the fresh postures."""
     np.random.seed(0)  # noqa: NPY002 it draws directions from this
     count = len(task["screws"])
-    its = SerialRobotKineCal(nominal(task["screws"], task["home"]), f"link_{count}")
-    seen = list(task["measured"])
-    if seen[0].ndim == 2:
-        seen = [SE3(pose, check=False) for pose in seen]
-    its.set_observations(list(task["joints"]), seen)
-    result = its.solve()
+    calibration = SerialRobotKineCal(nominal(task["screws"], task["home"]), f"link_{count}")
+    measured = list(task["measured"])
+    if measured[0].ndim == 2:
+        measured = [SE3(pose, check=False) for pose in measured]
+    calibration.set_observations(list(task["joints"]), measured)
+    result = calibration.solve()
     if result.is_diverging:
-        print("it says that it diverges", file=sys.stderr)
-    return np.array([its.forward_kinematics(count + 1, joints).t for joints in task["fresh"]])
+        print("robotkinecal reports that it diverges", file=sys.stderr)
+    return np.array(
+        [calibration.forward_kinematics(count + 1, joints).t for joints in task["fresh"]]
+    )
 
 
 if __name__ == "__main__":

@@ -24,9 +24,9 @@ def predict_all(task: Task) -> dict[str, np.ndarray]:
         GEOMETRY: validation.full[GEOMETRIC].predict(task.fresh),
         OURS: validation.calibration.predict(task.fresh),
     }
-    found = {who: task.predicted(its) for who, its in poses.items()}
+    predictions = {who: task.predicted(predicted) for who, predicted in poses.items()}
     nominal = task.nominal()
-    return found if nominal is None else {NOMINAL: nominal} | found
+    return predictions if nominal is None else {NOMINAL: nominal} | predictions
 
 
 def least_squares(model: ErrorModel, observations: Observations) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The page that says what everybody's errors are, and what each reads, writes and checks."""
+"""The page with the errors of all packages, and what each reads, writes and checks."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,13 +11,14 @@ from tests.peers.tasks import POSES, SUBSETS
 
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "peers.md"
-OURS, OTHER, UNTOLD = "recalib", "figaroh, ", "untold"
+OURS, FIGAROH = "recalib", "figaroh, "
+UNKNOWN_FRAMES = "untold"  # the name of the scenario
 RIGHT = 2e-3  # m: an estimate that ends in another minimum is off by centimetres
 WHO = (
     "nominal",
     "plain least squares",
     "robotkinecal",
-    *(OTHER + method for method in ("structural", "map", "map_cv")),
+    *(FIGAROH + method for method in ("structural", "map", "map_cv")),
     "recalib, geometry",
     OURS,
 )
@@ -27,25 +28,25 @@ ROWS = dict.fromkeys(TITLES, POSES) | {f"ur5_{count}": count for count in SUBSET
 
 
 def context(errors: pd.DataFrame, versions: Mapping[str, str]) -> dict:
-    """What the page says.
+    """The context of the template.
 
     Args:
-        errors: a row for each scenario, draw and who: error_mm, none where nothing came of it.
+        errors: a row for each scenario, draw and who: error_mm, none if the method failed.
         versions: of the peers.
     """
-    told = errors[errors.scenario != UNTOLD]
-    shown = [name for name in TITLES | REAL if name in {*told.scenario}]
+    rows = errors[errors.scenario != UNKNOWN_FRAMES]
+    shown = [name for name in TITLES | REAL if name in {*rows.scenario}]
     text = (HERE / "features.yaml").read_text(encoding="utf-8")
-    features = yaml.load(text, yaml.BaseLoader)  # to others, "no" is no word
+    features = yaml.load(text, yaml.BaseLoader)  # other loaders read "no" as false
     return {
         "versions": versions,
-        "scenarios": [_scenario(name, told[told.scenario == name]) for name in shown],
+        "scenarios": [_scenario(name, rows[rows.scenario == name]) for name in shown],
         "real": any(name in REAL for name in shown),
         "errors": {
-            who: [_cell(told[(told.scenario == name) & (told.who == who)]) for name in shown]
+            who: [_cell(rows[(rows.scenario == name) & (rows.who == who)]) for name in shown]
             for who in WHO
         },
-        "untold": _untold(errors[errors.scenario == UNTOLD]),
+        "unknown_frames": _counts(errors[errors.scenario == UNKNOWN_FRAMES]),
         "right": f"{1e3 * RIGHT:g}",
         "features": features,
     }
@@ -53,7 +54,7 @@ def context(errors: pd.DataFrame, versions: Mapping[str, str]) -> dict:
 
 def _scenario(name: str, rows: pd.DataFrame) -> dict:
     means = rows.groupby("who").error_mm.mean()
-    best = means[means.index.str.startswith(OTHER)].min()
+    best = means[means.index.str.startswith(FIGAROH)].min()
     return {
         "title": (TITLES | REAL)[name],
         "draws": rows.draw.nunique(),
@@ -63,7 +64,7 @@ def _scenario(name: str, rows: pd.DataFrame) -> dict:
 
 
 def _cell(rows: pd.DataFrame) -> str:
-    """The mean and the worst; how often nothing came of it."""
+    """The mean and the worst error; how many draws failed."""
     if rows.empty:
         return "-"
     good, failed = rows.error_mm.dropna(), int(rows.error_mm.isna().sum())
@@ -77,11 +78,12 @@ def _short(error: float) -> str:
     return f"{error:.3f}" if error < 1 else f"{error:.2f}" if error < 10 else f"{error:.0f}"
 
 
-def _untold(rows: pd.DataFrame) -> list[dict]:
+def _counts(rows: pd.DataFrame) -> list[dict]:
+    """How many draws of each method are right."""
     return [
-        {"who": who, "right": int((its.error_mm < 1e3 * RIGHT).sum()), "of": len(its)}
+        {"who": who, "right": int((draws.error_mm < 1e3 * RIGHT).sum()), "of": len(draws)}
         for who in WHO
-        if len(its := rows[rows.who == who])
+        if len(draws := rows[rows.who == who])
     ]
 
 

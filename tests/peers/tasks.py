@@ -1,4 +1,4 @@
-"""What is to be calibrated: the same rows to learn from and to be judged on, for everybody."""
+"""What is to be calibrated: the same rows to learn from and to be judged on, for all packages."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -36,9 +36,9 @@ class Task:
         observations: what there is to learn from, in the frame of the instrument.
         fresh: (m, joints) rad, the postures to be judged on.
         truth: poses (m, 4, 4) or positions (m, 3) [m] of the target there, in the same frame.
-        told: the poses (4, 4) of the arm's base in the frame of the instrument, and of the target
-            on the tool [m]: peers are told them, we are not. None where nobody is.
-        known: whether the noise is that of the simulated arms: peers are told it, we are not.
+        frames: the poses (4, 4) of the arm's base in the frame of the instrument, and of the target
+            on the tool [m]: peers get them, we do not. None: peers do not get them either.
+        known: whether the noise is that of the simulated arms: peers get it, we do not.
     """
 
     scenario: str
@@ -48,7 +48,7 @@ class Task:
     observations: Observations
     fresh: np.ndarray
     truth: np.ndarray
-    told: tuple[np.ndarray, np.ndarray] | None
+    frames: tuple[np.ndarray, np.ndarray] | None
     known: bool = True
 
     @property
@@ -56,41 +56,41 @@ class Task:
         """Of its files."""
         return f"{self.scenario}-{self.draw:03}"
 
-    def as_told(self, measured: np.ndarray) -> np.ndarray:
-        """Poses of the target as those of the tool in the arm's base, for who is told the frames.
+    def in_base(self, measured: np.ndarray) -> np.ndarray:
+        """Poses of the target as those of the tool in the arm's base, if the frames are known.
 
         Positions (n, 3) [m] stay those of the target.
         """
-        if self.told is None:
+        if self.frames is None:
             return measured
-        base, target = self.told
+        base, target = self.frames
         if measured.ndim == 2:
             return (measured - base[:3, 3]) @ base[:3, :3]
         return np.linalg.inv(base) @ measured @ np.linalg.inv(target)
 
     def error(self, positions: np.ndarray) -> float:
-        """The mean distance [m] of predicted positions (m, 3), as told, from the truth."""
-        gaps = positions - _positions(self.as_told(self.truth))
+        """The mean distance [m] of predicted positions (m, 3), as `in_base`, to the truth."""
+        gaps = positions - _positions(self.in_base(self.truth))
         return float(np.linalg.norm(gaps, axis=1).mean())
 
     def predicted(self, poses: np.ndarray) -> np.ndarray:
-        """Positions (m, 3) [m], as told, from predicted poses (m, 4, 4) of the target."""
+        """Positions (m, 3) [m], as `in_base`, from predicted poses (m, 4, 4) of the target."""
         positions_alone = self.truth.ndim == 2
-        return _positions(self.as_told(_positions(poses) if positions_alone else poses))
+        return _positions(self.in_base(_positions(poses) if positions_alone else poses))
 
     def nominal(self) -> np.ndarray | None:
-        """Positions (m, 3) [m] that the nominal arm has, as told; None where nobody is."""
-        if self.told is None:
+        """Positions (m, 3) [m] of the nominal arm, as `in_base`; None if the frames are unknown."""
+        if self.frames is None:
             return None
         return _positions(self.arm.forward(self.fresh) @ self._judged)
 
     @property
     def _judged(self) -> np.ndarray:
         """The pose (4, 4) in the tool's frame of what is judged."""
-        return self.told[1] if self.told and self.truth.ndim == 2 else np.eye(4)
+        return self.frames[1] if self.frames and self.truth.ndim == 2 else np.eye(4)
 
     def write(self, folder: Path) -> None:
-        """What peers are given, who know nothing of our classes; not the truth."""
+        """Write a file for the peers, as arrays, since they lack our classes; without the truth."""
         home, jacobians = self.arm.forward_and_jacobian(np.zeros((1, len(self.arm.joints))))
         turning, moving = jacobians[0, 3:].T, jacobians[0, :3].T
         np.savez(
@@ -100,9 +100,9 @@ class Task:
             tool=self.arm.tool,
             names=np.array(self.arm.joints),
             joints=self.observations.joints,
-            measured=self.as_told(self.observations.measured),
+            measured=self.in_base(self.observations.measured),
             fresh=self.fresh,
-            told=self.told is not None,
+            told=self.frames is not None,
             noise=np.array(NOISE),
             known=self.known,
             # of every joint at zero, the moment and the direction of its axis in the base's frame
@@ -136,7 +136,7 @@ def simulated(
     name: str,
     kind: type[Real],
     draw: int,
-    told: bool = True,
+    frames_known: bool = True,
     outliers: float = 0.0,
 ) -> Task:
     """A draw of an arm, by its name, with poses to learn from, a part of which is far off."""
@@ -144,28 +144,29 @@ def simulated(
     real = kind(arm, draw)
     joints, fresh = real.postures(POSES), real.postures(FRESH)
     measured = real.poses(joints)
-    far = real.random.permutation(POSES)[: round(outliers * POSES)]
-    ways = Rotation.random(POSES, rng=real.random).as_matrix()[:, 0]
-    measured[far, :3, 3] += FAR * ways[far]
-    seen, truth = Observations(joints, measured), real.poses(fresh, noise=(0, 0))
-    frames = (real.base, real.targets[0]) if told else None
-    return Task(scenario, draw, arm, urdf, seen, fresh, truth, frames)
+    outlying = real.random.permutation(POSES)[: round(outliers * POSES)]
+    directions = Rotation.random(POSES, rng=real.random).as_matrix()[:, 0]
+    measured[outlying, :3, 3] += FAR * directions[outlying]
+    observations, truth = Observations(joints, measured), real.poses(fresh, noise=(0, 0))
+    frames = (real.base, real.targets[0]) if frames_known else None
+    return Task(scenario, draw, arm, urdf, observations, fresh, truth, frames)
 
 
 def recorded(folder: Path) -> Iterator[Task]:
     """Of a real UR5: random subsets of the 1,000 positions, and the 20 others to be judged on."""
-    said = read_description(UR5)
+    description = read_description(UR5)
     arm, urdf = load_arm("ur5_robot.urdf", "tool0"), find_urdf("ur5_robot.urdf")
     known, tests = (
-        read_measurements(folder / f"{name}.csv", arm, said) for name in ("grid_1000", "random_20")
+        read_measurements(folder / f"{name}.csv", arm, description)
+        for name in ("grid_1000", "random_20")
     )
-    told = np.linalg.inv(said.instrument), said.target
+    frames = np.linalg.inv(description.instrument), description.target
     for count, subsets in SUBSETS.items():
         for subset in range(subsets):
             rows = np.sort(np.random.default_rng(subset).permutation(len(known))[:count])
-            seen = Observations(known.joints[rows], known.positions[rows])
+            own = Observations(known.joints[rows], known.positions[rows])
             fresh, truth = tests.joints, tests.positions
-            yield Task(f"ur5_{count}", subset, arm, urdf, seen, fresh, truth, told, known=False)
+            yield Task(f"ur5_{count}", subset, arm, urdf, own, fresh, truth, frames, known=False)
 
 
 def tasks(draws: int, recording: Path | None) -> Iterator[Task]:
@@ -174,6 +175,6 @@ def tasks(draws: int, recording: Path | None) -> Iterator[Task]:
         yield simulated("panda", "Panda", Real, draw)
         yield simulated("ur10", "UR10", Shortened, draw)
         yield simulated("ur10_outliers", "UR10", Shortened, draw, outliers=OUTLIERS)
-        yield simulated("untold", "Panda", Real, draw, told=False)
+        yield simulated("untold", "Panda", Real, draw, frames_known=False)
     if recording is not None:
         yield from recorded(recording)

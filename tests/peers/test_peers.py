@@ -1,4 +1,4 @@
-"""What is ours of the comparison: the tasks, and the page."""
+"""Our part of the comparison: the tasks, and the page."""
 
 import re
 
@@ -16,34 +16,35 @@ from tests.peers.page import HERE, PAGE, WHO, context, render
 from tests.peers.tasks import POSES, SHORTENED, SUBSETS, Shortened, Task, recorded, simulated
 
 
-def perfect(name: str, positions: bool, told: bool = True) -> Task:
+def perfect(name: str, positions: bool, frames_known: bool = True) -> Task:
     """A task about an arm that is as the nominal one."""
     arm, random = load_arm(*ARMS[name]), np.random.default_rng(1)
     base, target = anywhere(random, 2.0), anywhere(random, 0.2)
     joints = random.uniform(-2, 2, (5, len(arm.joints)))
-    seen = base @ arm.forward(joints) @ target
+    measured = base @ arm.forward(joints) @ target
     if positions:
-        seen = seen[:, :3, 3]
-    frames = (base, target) if told else None
+        measured = measured[:, :3, 3]
+    frames = (base, target) if frames_known else None
     urdf = find_urdf(ARMS[name][0])
-    return Task("perfect", 0, arm, urdf, Observations(joints, seen), joints, seen, frames)
+    observations = Observations(joints, measured)
+    return Task("perfect", 0, arm, urdf, observations, joints, measured, frames)
 
 
 @pytest.mark.parametrize("positions", [False, True])
-def test_who_is_told_the_frames_of_a_perfect_arm_misses_nothing(positions):
+def test_with_known_frames_a_perfect_arm_has_no_error(positions):
     task = perfect("Panda", positions)
     assert task.error(task.nominal()) < 1e-12
-    base, target = task.told
-    found = base @ task.arm.forward(task.fresh) @ target
-    assert task.error(task.predicted(found)) < 1e-12
-    found[:, 2, 3] += 1e-3
-    assert task.error(task.predicted(found)) == pytest.approx(1e-3)
+    base, target = task.frames
+    poses = base @ task.arm.forward(task.fresh) @ target
+    assert task.error(task.predicted(poses)) < 1e-12
+    poses[:, 2, 3] += 1e-3
+    assert task.error(task.predicted(poses)) == pytest.approx(1e-3)
 
 
-def test_nobody_told_means_that_all_is_in_the_frame_of_the_instrument():
-    task = perfect("UR10", positions=False, told=False)
+def test_with_unknown_frames_all_is_in_the_frame_of_the_instrument():
+    task = perfect("UR10", positions=False, frames_known=False)
     assert task.nominal() is None
-    assert task.as_told(task.truth) is task.truth
+    assert task.in_base(task.truth) is task.truth
     assert task.error(task.predicted(task.truth)) == 0
 
 
@@ -54,28 +55,31 @@ def test_the_axes_that_a_peer_is_given_are_those_of_the_nominal_arm(name, positi
     task = perfect(name, positions)
     task.write(tmp_path)
     with np.load(tmp_path / "perfect-000.npz") as file:
-        given = dict(file)
-    for joints, seen in zip(given["joints"], given["measured"], strict=True):
-        pose = given["home"]
-        for (*moment, x, y, z), angle in [*zip(given["screws"], joints, strict=True)][::-1]:
+        arrays = dict(file)
+    for joints, measured in zip(arrays["joints"], arrays["measured"], strict=True):
+        pose = arrays["home"]
+        for (*moment, x, y, z), angle in [*zip(arrays["screws"], joints, strict=True)][::-1]:
             turn = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
             twist = np.vstack([np.column_stack([turn, moment]), np.zeros(4)])
             pose = scipy.linalg.expm(angle * twist) @ pose
-        np.testing.assert_allclose(seen, pose[:3, 3] if positions else pose, atol=1e-12)
+        np.testing.assert_allclose(measured, pose[:3, 3] if positions else pose, atol=1e-12)
 
 
 def test_a_peer_is_not_given_the_truth(tmp_path):
     simulated("panda", "Panda", Real, 0).write(tmp_path)
-    with np.load(tmp_path / "panda-000.npz") as given:
-        assert "truth" not in given
-        assert len(given["measured"]) == len(given["joints"]) == POSES
-        assert not np.isin(given["fresh"], given["joints"]).any()
+    with np.load(tmp_path / "panda-000.npz") as arrays:
+        assert "truth" not in arrays
+        assert len(arrays["measured"]) == len(arrays["joints"]) == POSES
+        assert not np.isin(arrays["fresh"], arrays["joints"]).any()
 
 
 def test_the_damage_of_the_paper_is_done_to_three_links():
     arm = load_arm(*ARMS["UR10"])
-    nominal, real = (its.model.jointPlacements for its in (arm, Shortened(arm, 0)._arm))
-    lengths = [[np.linalg.norm(place.translation) for place in its] for its in (nominal, real)]
+    arms = arm, Shortened(arm, 0)._arm
+    lengths = [
+        [np.linalg.norm(placement.translation) for placement in each.model.jointPlacements]
+        for each in arms
+    ]
     lost = np.subtract(*lengths)
     np.testing.assert_allclose(sorted(lost[np.abs(lost) > 1e-12]), SHORTENED)
 
@@ -117,12 +121,12 @@ def test_the_page_has_the_mean_the_worst_and_what_failed(errors):
     errors.loc[those("ur10", "robotkinecal"), "error_mm"] = np.nan
     errors.loc[those("ur10", "figaroh"), "error_mm"] = np.nan
     errors.loc[those("untold", "robotkinecal") & (errors.draw == 0), "error_mm"] = 2.5
-    said = context(errors[~those("ur5_20", "figaroh, map_cv")], PEERS)
-    assert said["errors"]["robotkinecal"][:3] == ["0.300, 1 failed", "nothing", "0.400 (0.500)"]
-    assert said["errors"]["figaroh, map_cv"][-1] == "-"
-    ratios = [its["ratio"] for its in said["scenarios"][:2]]
+    page = context(errors[~those("ur5_20", "figaroh, map_cv")], PEERS)
+    assert page["errors"]["robotkinecal"][:3] == ["0.300, 1 failed", "nothing", "0.400 (0.500)"]
+    assert page["errors"]["figaroh, map_cv"][-1] == "-"
+    ratios = [scenario["ratio"] for scenario in page["scenarios"][:2]]
     assert ratios == ["1.80", "-"], "0.9 over 0.5, the least of figaroh's, and none of them"
-    right = {its["who"]: (its["right"], its["of"]) for its in said["untold"]}
+    right = {row["who"]: (row["right"], row["of"]) for row in page["unknown_frames"]}
     assert (right["robotkinecal"], right["recalib"]) == ((1, 2), (2, 2))
 
 
@@ -133,12 +137,11 @@ def test_without_a_recording_the_page_says_nothing_of_the_real_arm(errors):
 
 def test_the_committed_page_has_all_features_and_every_no_has_its_evidence(errors):
     """Its errors come from `make peers`."""
-    page, made = PAGE.read_text(encoding="utf-8"), render(errors, PEERS)
-    assert page.split("## Features")[1] == made.split("## Features")[1]
-    for part in context(errors, PEERS)["features"]:
-        for row in part["rows"]:
-            without = {peer for peer in PEERS if row[peer].startswith("no")}
-            assert without <= {*row.get("where", {})}, row
+    page, rendered = PAGE.read_text(encoding="utf-8"), render(errors, PEERS)
+    assert page.split("## Features")[1] == rendered.split("## Features")[1]
+    for row in context(errors, PEERS)["features"]:
+        without = {peer for peer in PEERS if row[peer].startswith("no")}
+        assert without <= {*row.get("where", {})}, row
 
 
 @pytest.mark.parametrize("script", ["by_figaroh.py", "by_robotkinecal.py"])

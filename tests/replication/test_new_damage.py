@@ -22,7 +22,7 @@ import recalib.damaged
 recalib.damaged.__path__.append(sys.argv[1])
 from pathlib import Path
 from recalib.errors import RecalibError
-from replication.recording.naming import in_words
+from replication.recording.captions import in_words
 from replication.running.studies import study_of
 from replication.scenarios.plants import Resolved
 from replication.scenarios.resolving import resolve

@@ -115,8 +115,8 @@ class Cluster:
 
     def start(self, daemon: str) -> None:
         """Start a daemon, and wait until it answers."""
-        kept = "key", "log", "pid", "seed"
-        munge = [f"--{name}-file={self.folder}/munge.{name}" for name in kept]
+        files = "key", "log", "pid", "seed"
+        munge = [f"--{name}-file={self.folder}/munge.{name}" for name in files]
         arguments = {
             "munged": ["-F", "--force", f"--socket={self.folder}/munge.socket", *munge],
             "slurmctld": ["-D"],
@@ -144,11 +144,11 @@ class Cluster:
             process.wait(PATIENCE)
 
     def ask(self, *command: str) -> str:
-        """What a command of Slurm answers; nothing where it fails."""
-        ran = subprocess.run(
+        """The output of a command of Slurm; empty if it fails."""
+        process = subprocess.run(
             command, env=self.environment, text=True, capture_output=True, check=False
         )
-        return ran.stdout.strip() if ran.returncode == 0 else ""
+        return process.stdout.strip() if process.returncode == 0 else ""
 
     def clear(self) -> None:
         """Cancel all jobs, and wait until they have ended."""

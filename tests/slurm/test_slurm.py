@@ -24,7 +24,7 @@ pytestmark = [
 
 TRAININGS, TOGETHER = 3, 2  # places of the study, and those of a job in Slurm
 JOBS = 1 + 2 + 2  # the scenarios, the settings of two learners, the trainings
-# nobody minds to be asked often
+# short, since this Slurm has no other users
 ON_SLURM = ["--profile", "profiles/slurm", "--slurm-init-seconds-before-status-checks", "1"]
 ON_SLURM += ["--group-components", f"trainings={TOGETHER}"]
 
@@ -39,11 +39,11 @@ class Trainings:
         self.start()
 
     def start(self):
-        """Begin it, or go on."""
+        """Start it, or continue it."""
         self._process = self._project.start(*self._arguments, **self._options)
 
     def at_work(self):
-        """Wait until a job is at work, and say where."""
+        """The first job at work, as soon as there is one."""
         return at_work(self._project, self._process)[0]
 
     def kill(self):
@@ -51,12 +51,12 @@ class Trainings:
         if self._process.poll() is None:
             kill(self._process)
 
-    def made(self) -> tuple[dict[str, bytes], str]:
-        """Wait for its end; by their paths, what the files hold that it made, and what it says."""
-        said = ended(self._process).well().said
+    def results(self) -> tuple[dict[str, bytes], str]:
+        """Wait for its end; the contents of its files by their paths, and its output."""
+        output = ended(self._process).well().said
         folder = self._project.results / self._name
         files = [folder / "summary.csv", *(folder / "runs").rglob("*.*")]
-        return {str(path.relative_to(folder)): path.read_bytes() for path in files}, said
+        return {str(path.relative_to(folder)): path.read_bytes() for path in files}, output
 
 
 @pytest.fixture(scope="module")
@@ -67,32 +67,32 @@ def project(tmp_path_factory) -> Project:
 
 @pytest.fixture(scope="module")
 def expected(project) -> dict[str, bytes]:
-    """What it makes without Slurm."""
-    made, _ = Trainings(project, "here", "--cores", "2").made()
-    assert len(made) == 1 + 2 * 2 * TRAININGS, "the table; of each learner, history and maps"
-    return made
+    """Its files without Slurm."""
+    files, _ = Trainings(project, "here", "--cores", "2").results()
+    assert len(files) == 1 + 2 * 2 * TRAININGS, "the table; of each learner, history and maps"
+    return files
 
 
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory):
-    with Cluster(tmp_path_factory.mktemp("cluster")) as its:
-        yield its
+    with Cluster(tmp_path_factory.mktemp("cluster")) as slurm:
+        yield slurm
 
 
 @pytest.fixture
 def trainings(project, expected, cluster, request):
     """On the cluster under the test's name; nothing of it outlives the test."""
     name = re.sub(r"\W+", "_", request.node.name)[-30:].strip("_")  # of a study: not a long one
-    its = Trainings(project, name, *ON_SLURM, env=cluster.environment)
-    yield its
-    its.kill()
+    run = Trainings(project, name, *ON_SLURM, env=cluster.environment)
+    yield run
+    run.kill()
     cluster.clear()
 
 
 def test_slurm_makes_the_same_bytes(trainings, expected):
-    made, said = trainings.made()
-    assert made == expected
-    assert said.count("has been submitted with SLURM jobid") == JOBS
+    files, output = trainings.results()
+    assert files == expected
+    assert output.count("has been submitted with SLURM jobid") == JOBS
 
 
 @pytest.mark.parametrize("how", ["cancelled", "killed"])
@@ -102,8 +102,8 @@ def test_a_job_that_is_ended_is_done_again(how, trainings, expected, cluster):
         job.kill()
     else:
         cluster.ask("scancel", cluster.jobs("running")[0])
-    made, said = trainings.made()
-    assert made == expected and said.count("Trying to restart job") == 1
+    files, output = trainings.results()
+    assert files == expected and output.count("Trying to restart job") == 1
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_a_daemon_may_be_away(daemon, how, away, trainings, expected, cluster):
     cluster.stop(daemon, how)
     time.sleep(away)
     cluster.start(daemon)
-    assert trainings.made()[0] == expected
+    assert trainings.results()[0] == expected
 
 
 def test_a_killed_snakemake_goes_on(trainings, expected, cluster):
@@ -126,4 +126,4 @@ def test_a_killed_snakemake_goes_on(trainings, expected, cluster):
     trainings.kill()
     assert cluster.jobs("running"), "what it left in Slurm works on"
     trainings.start()
-    assert trainings.made()[0] == expected
+    assert trainings.results()[0] == expected

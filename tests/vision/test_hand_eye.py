@@ -219,6 +219,13 @@ def scaled(scale: float) -> Callable:
     return lambda poses: poses * np.array([[1, 1, 1, scale]] * 3 + [[1, 1, 1, 1]])
 
 
+def tenfold(poses: np.ndarray) -> np.ndarray:
+    """Ten times as far from their middle, which may be the base's origin: within 10 m."""
+    poses = poses.copy()
+    poses[:, :3, 3] -= poses[:, :3, 3].mean(axis=0)
+    return scaled(10.0)(poses)
+
+
 INVERSE = "the flange's poses are those of the base in it"
 MOVING = "angles about the moving axes z, y, x"
 FAULTS = {
@@ -238,7 +245,7 @@ FAULTS = {
     "millimetres as metres": Fault("Is its unit right?", change=scaled(1e3)),
     "metres as millimetres": Fault("likely in metres labelled mm", change=scaled(1e-3)),
     "millimetres as centimetres": Fault(
-        "likely in millimetres labelled cm", change=scaled(10.0), way="ros"
+        "likely in millimetres labelled cm", change=tenfold, way="ros"
     ),
 }
 

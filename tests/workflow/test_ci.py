@@ -46,7 +46,7 @@ def test_every_python_that_is_promised_runs_the_tests():
 def test_files_that_name_the_version_name_the_same():
     named = {
         name: yaml.safe_load((ROOT / name).read_text(encoding="utf-8"))["version"]
-        for name in ("CITATION.cff", "codemeta.json", ".zenodo.json")
+        for name in ("CITATION.cff", ".zenodo.json")
     }
     changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     named["CHANGELOG.md"] = re.search(r"^## \[(.+?)\]", changelog, re.MULTILINE)[1]

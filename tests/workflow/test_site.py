@@ -16,6 +16,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.wait import WebDriverWait
 
+import recalib
 from tests.browser import chromium, needs_chromium, requests, severe
 from tests.conftest import ROOT
 
@@ -36,7 +37,7 @@ SOFTWARE = "--use-angle=swiftshader", "--enable-unsafe-swiftshader"  # WebGL wit
 SCHEME = "return document.body.dataset.mdColorScheme"
 SCHEMES = {"light": "default", "dark": "slate"}
 # text, signatures, commands, sliders
-BY_NIGHT = "index.html", "docs/reference.html", "docs/library.html", "docs/try.html"
+BY_NIGHT = "index.html", "docs/reference/laboratory.html", "docs/library.html", "docs/try.html"
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group(name="site")]
 
@@ -100,6 +101,12 @@ def test_every_page_of_the_repository_is_on_the_site(site):
     names = {path.relative_to(site).with_suffix("").as_posix() for path in site.rglob("*.html")}
     pages = {path.relative_to(ROOT).with_suffix("").as_posix() for path in PAGES}
     assert (pages - {"docs/index"}) | {"index", "docs/reference"} <= names
+
+
+def test_every_public_name_is_on_one_page_of_the_reference(site):
+    pages = [page.read_text(encoding="utf-8") for page in (site / "docs/reference").glob("*.html")]
+    for name in recalib.__all__:
+        assert sum(f'id="recalib.{name}"' in page for page in pages) == 1, name
 
 
 @needs_chromium

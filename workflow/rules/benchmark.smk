@@ -28,7 +28,6 @@ rule benchmark_table:
     output:
         errors=f"{RESULTS}/benchmark.csv",
         reached=f"{RESULTS}/benchmark_moves.csv",
-        seconds=f"{RESULTS}/benchmark_seconds.csv",  # which differ from run to run
     log:
         f"{RESULTS}/logs/benchmark_table.log",
     localrule: True

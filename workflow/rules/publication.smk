@@ -5,7 +5,8 @@ from recalib.nominal.meshes import mesh_files
 from replication.config.switches import IMPROVED
 from replication.pages.names import OUTCOME, pages_of
 from replication.plots.figures import Figure, figures_of
-from replication.recording.recorded import recorded_learners, recorded_places
+from replication.recording.recorded import recorded_places
+from replication.training.plan import leading
 
 FIGURES = [
     f"{RESULTS}/figures/{name}.{suffix}" for name in figures_of(STUDY) for suffix in ("svg", "png")
@@ -40,9 +41,7 @@ rule recordings:
         settings=SETTINGS,
         meshes=[str(path) for path in mesh_files(find_urdf(STUDY.robots[STUDY.robot].urdf))],
         histories=[
-            place.history_file(RESULTS, learner)
-            for place in recorded_places(STUDY)
-            for learner in recorded_learners(STUDY)
+            place.history_file(RESULTS, leading(STUDY).learner) for place in recorded_places(STUDY)
         ],
     output:
         recordings=RECORDINGS,
@@ -122,7 +121,7 @@ rule publish:
         f"{RESULTS}/logs/publish.log",
     localrule: True
     params:
-        **calls("pages.publishing:publish"),
+        **calls("pages.writing:publish"),
     message:
         "Publish figures and pages"
     script:
@@ -137,7 +136,7 @@ if IS_SHIPPED:
 # What a target of its own measures, with its tables, its figure and its page.
 APART = {
     "benchmark": (
-        ["benchmark.csv", "benchmark_moves.csv", "benchmark_seconds.csv"],
+        ["benchmark.csv", "benchmark_moves.csv"],
         Figure.BENCHMARK,
         "guidance.md",
     ),
@@ -193,7 +192,7 @@ for part, (tables, figure, page) in APART.items():
             f"{RESULTS}/logs/publish_{part}.log",
         localrule: True
         params:
-            **calls("pages.publishing:publish"),
+            **calls("pages.writing:publish"),
         message:
             f"Publish the {part}"
         script:
@@ -231,23 +230,6 @@ rule article:
         "../scripts/call.py"
 
 
-rule before_and_after:
-    input:
-        recording=f"{RESULTS}/recordings/{{scenario}}.rrd",
-    output:
-        before=f"{RESULTS}/figures/{{scenario}}_before.png",
-        after=f"{RESULTS}/figures/{{scenario}}_after.png",
-    log:
-        f"{RESULTS}/logs/before_and_after/{{scenario}}.log",
-    localrule: True
-    params:
-        **calls("recording.pictures:before_and_after"),
-    message:
-        "Take pictures of the arm with the viewer, which needs a Vulkan driver"
-    script:
-        "../scripts/call.py"
-
-
 rule film:
     input:
         recording=f"{RESULTS}/recordings/{{scenario}}.rrd",
@@ -257,7 +239,7 @@ rule film:
         f"{RESULTS}/logs/film/{{scenario}}.log",
     localrule: True
     params:
-        **calls("recording.pictures:take_film"),
+        **calls("recording.film:take_film"),
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
     script:

@@ -1,6 +1,7 @@
 """The site's pages: those of the repository from where they lie, and one from the docstrings."""
 
 import ast
+import importlib
 import re
 from functools import cache
 from pathlib import Path
@@ -9,7 +10,7 @@ from mkdocs.structure.files import File, Files
 
 import recalib
 from replication.pages.imprint import Imprint
-from replication.recording.web_viewer import ADDRESS, embed
+from replication.recording.web_viewer import PAGE, embed
 
 SHOWN = (
     "*.md",
@@ -28,17 +29,28 @@ WIDE = "docs/index.md", "docs/try.md", "docs/watch.md"  # without columns beside
 BADGES = re.compile(r"^\[!\[.*\n\n", re.MULTILINE)  # pictures from elsewhere
 WATCH, VIEWER = "docs/watch.md", "viewer"
 # Where the picture is in the repository: the viewer has 35 MB, so nothing is loaded before a click.
-EMBEDDED = f"""<button type="button" class="md-button embed" data-address="../{VIEWER}/{ADDRESS}">
+EMBEDDED = f"""<button type="button" class="md-button embed" data-address="../{VIEWER}/{PAGE}">
 Watch the recording here (35 MB)</button>
 
 """
 EXAMPLES = sorted((Path(recalib.__file__).parents[1] / "examples").glob("*.py"))
 REFERENCE = """# Reference
 
-What `import recalib` has, and which examples use it: tests run them all.
-[How it fits together](library.md).
+`import recalib` has all these names. [The examples](library.md) show how they fit together.
 
+| part | names |
+| --- | --- |
 """
+PARTS = {  # parts of recalib: the title of their page, and the example that it begins with
+    "nominal": ("Arms, robots and controllers", "ur10.py"),
+    "damaged": ("Damages, disturbances and plants", "redundant_arm.py"),
+    "loop": ("Training", "own_robot.py"),
+    "learners": ("Learners", "damage_and_train.py"),
+    "identification": ("Identification", "identify.py"),
+    "laboratory": ("Calibration and correction", "laboratory.py"),
+    "station": ("Stations", "station.py"),
+    "errors": ("Errors", "save_and_load.py"),
+}
 
 
 def on_config(config):
@@ -60,7 +72,8 @@ def on_files(files: Files, config) -> Files:
         file = File.generated(config, name, abs_src_path=str(path))
         file.dest_uri = PLACES.get(name, file.dest_uri)
         files.append(file)
-    files.append(File.generated(config, "docs/reference.md", content=reference()))
+    for name, content in reference().items():
+        files.append(File.generated(config, f"docs/{name}.md", content=content))
     return files
 
 
@@ -85,14 +98,49 @@ def _recording(config) -> Path:
     return Path(config.config_file_path).parent / config.extra["recording"]
 
 
-def reference() -> str:
-    """The page of the public names, each with the examples that use it."""
-    page = [REFERENCE]
-    for name in recalib.__all__:
+def reference() -> dict[str, str]:
+    """Pages of the public names by their paths in docs: an overview, and one for each part."""
+    parts = _parts()
+    overview = [
+        f"| [{title}](reference/{part}.md) | "
+        + ", ".join(f"[`{name}`][recalib.{name}]" for name in parts[part])
+        + " |\n"
+        for part, (title, _) in PARTS.items()
+    ]
+    return {"reference": REFERENCE + "".join(overview)} | {
+        f"reference/{part}": _page(part, names) for part, names in parts.items()
+    }
+
+
+def _page(part: str, names: list[str]) -> str:
+    """The page of one part: an example, then its names, each with the examples that use it."""
+    title, first = PARTS[part]
+    (example,) = (path for path in EXAMPLES if path.name == first)
+    page = [
+        f"# {title}\n",
+        f"{importlib.import_module(f'recalib.{part}').__doc__}\n",
+        f"For example, {_link(example)}:\n",
+        f"```python\n{example.read_text(encoding='utf-8')}```\n",
+    ]
+    for name in names:
         page += [f"::: recalib.{name}\n"]
-        if used := [path.name for path in EXAMPLES if name in _public_names(path)]:
-            page += ["In " + ", ".join(f"[{its}](../examples/{its})" for its in used) + ".\n"]
+        if used := [path for path in EXAMPLES if name in _public_names(path)]:
+            page += ["In " + ", ".join(map(_link, used)) + ".\n"]
     return "\n".join(page)
+
+
+def _link(example: Path) -> str:
+    return f"[{example.name}](../../examples/{example.name})"
+
+
+def _parts() -> dict[str, list[str]]:
+    """The public names of each package of recalib, and of its errors, as the stub lists them."""
+    stub = ast.parse(Path(recalib.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
+    parts: dict[str, list[str]] = {part: [] for part in PARTS}
+    for node in stub.body:
+        if isinstance(node, ast.ImportFrom) and node.module:
+            parts[node.module.partition(".")[0]] += [alias.name for alias in node.names]
+    return parts
 
 
 @cache

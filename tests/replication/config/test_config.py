@@ -7,8 +7,7 @@ import yaml
 
 from recalib.damaged import Imperfection
 from replication.config import MOST_SHOWN, InvalidConfiguration, Study, read_study, schema
-from replication.running import study_of
-from replication.running.checks import check, check_robots
+from replication.running import check, check_robots, study_of
 from tests.conftest import ROOT
 from tests.conftest import changed as with_keys
 

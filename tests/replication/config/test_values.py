@@ -11,8 +11,9 @@ TEXT = """\
 names: {one: 1, two: -2.5e3, three: yes, four: 0x10, five: 1:30, six: 2026-11-23}
 list: [true, False, ~, null, .inf, -.inf, 1e5, +7, 1_000, "4", '', 4 cm]
 base: &base {a: 1, b: [2, {c: 3}]}
-other: {<<: *base, a: 9}
+other: &other {<<: *base, a: 9}
 again: *base
+merged: *other
 empty:
 zeros: [08, -010]
 """
@@ -43,6 +44,7 @@ def test_words_are_those_of_yaml_1_2(whole):
         "base": BASE,
         "other": BASE | {"a": 9},
         "again": BASE,
+        "merged": BASE | {"a": 9},
         "empty": None,
         "zeros": [8, -10],
     }
@@ -56,7 +58,7 @@ def test_words_are_those_of_yaml_1_2(whole):
         (("list", 11), "3:68"),
         (("base", "b", 1, "c"), "4:28"),
         (("again", "b", 1, "c"), "4:28"),  # where the anchor has it
-        (("other", "a"), "5:20"),
+        (("other", "a"), "5:27"),
         (("other", "b"), "4:20"),
         (("list", 99), "3:1"),  # the last one on the way
     ],

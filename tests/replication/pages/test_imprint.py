@@ -25,13 +25,6 @@ FIELDS = {  # what somebody who publishes fills in
         ),
         "license: MIT": f"license: MIT\nrepository-code: {ADDRESS}",
     },
-    "codemeta.json": {
-        '{"@type": "Organization", "name": "The recalib authors"}': (
-            '{"@type": "Person", "givenName": "Ada", "familyName": "Example"},'
-            ' {"@type": "Person", "givenName": "Grace", "familyName": "Sample"}'
-        ),
-        '"name": "recalib",': f'"name": "recalib", "codeRepository": "{ADDRESS}",',
-    },
     ".zenodo.json": {
         '{"name": "The recalib authors"}': '{"name": "Example, Ada"}, {"name": "Sample, Grace"}'
     },

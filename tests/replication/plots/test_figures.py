@@ -18,11 +18,11 @@ from replication.plots import (
     Figure,
     drawing,
     figures_of,
-    leading,
     rows,
     styles_of,
     styles_of_trainings,
 )
+from replication.training import leading
 from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import NEEDED, disturbed
 
@@ -58,7 +58,7 @@ def line(axes, label):
 
 
 def test_figure_1_shows_the_means_of_the_seeds(figures, evidence):
-    history = leading(evidence.study).history(evidence)
+    history = evidence.history(*leading(evidence.study))
     for axes in figures[Figure.FIGURE_1].axes:
         for error in BOTH:
             iterations, errors = line(axes, error.kind)

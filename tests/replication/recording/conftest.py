@@ -10,7 +10,7 @@ from rerun.chunk import RrdReader
 
 from recalib import BaseShift, EncoderShift, LinkShortening, Noise, Sag
 from replication.config import Study
-from replication.recording import CLOCK, record, recorded_learners, recorded_places
+from replication.recording import CLOCK, record, recorded_places
 from replication.scenarios import Resolved, resolve
 from replication.training.train import train
 from tests.conftest import changed
@@ -63,18 +63,18 @@ def trained(study: Study, root: Path) -> Files:
     ]
     pd.DataFrame(rows).to_csv(settings, index=False)
     files = Files([], [settings], [], [])
-    places, names = recorded_places(study), recorded_learners(study)
+    places, learners = recorded_places(study), study.experiments.learners
     scenarios, _ = resolve(study, study.robot, [place.scenario for place in places])
     for place, resolved in zip(places, scenarios, strict=True):
         scenario = Path(place.scenario_file(str(root)))
-        histories = [Path(place.history_file(str(root), name)) for name in names]
+        histories = [Path(place.history_file(str(root), name)) for name in learners]
         for path in (scenario, histories[0]):
             path.parent.mkdir(parents=True, exist_ok=True)
         scenario.write_text(resolved.model_dump_json(), encoding="utf-8")
         learned = [path.with_suffix(".npz") for path in histories]
         train(study, *place, scenario, [settings], histories, learned)
         files.scenarios.append(scenario)
-        files.histories.extend(histories)
+        files.histories.append(Path(place.history_file(str(root), LEARNERS[0])))
         files.recordings.append(root / "recordings" / f"{place.scenario}.rrd")
     files.recordings[0].parent.mkdir()
     return files

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from replication.config import Ensemble
-from replication.training import Stream, Timed, Tuned, compete, rules_of, train_ensemble
+from replication.training import Stream, Tuned, compete, rules_of, train_ensemble
 from replication.training import constant_widths as module
 from replication.training.replay import replay
 from tests.conftest import changed
@@ -19,8 +19,7 @@ def of(study, **update):
 
 def test_scenarios_side_by_side_are_what_each_of_them_is_alone(study):
     def competed(*scenarios):
-        table = compete(of(study, scenarios=scenarios), "affine", [])
-        return table.drop(columns="seconds_per_move")
+        return compete(of(study, scenarios=scenarios), "affine", [])
 
     both = competed("links", "rotation")
     assert both.groupby(["scenario", "seed"])["moves"].agg(list).to_dict() == {
@@ -36,15 +35,6 @@ def test_a_learner_of_the_paper_moves_twice_an_iteration_by_its_settings(study, 
     assert table["moves"].tolist() == [2, 4, 8] * 2
     assert table["iteration"].tolist() == [1, 2, 4] * 2
     assert (table["learner"] == "improved").all()
-
-
-def test_its_time_is_shared_by_all_moves_of_all_runs(study, monkeypatch):
-    def learn(self, *_):
-        self.seconds += 6.0
-
-    monkeypatch.setattr(Timed, "learn", learn)
-    table = compete(of(study, scenarios=("links",), longer=()), "affine", [])
-    assert set(table["seconds_per_move"]) == {4 * 6.0 / (2 * 4)}
 
 
 def trained(study, folder, **its):

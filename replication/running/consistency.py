@@ -1,6 +1,6 @@
 """Consistency of a study: names that must exist, and keys that go together.
 
-What depends on a robot's geometry is in `replication.running.checks.geometry`.
+What depends on a robot's geometry is in `replication.running.geometry`.
 """
 
 import math

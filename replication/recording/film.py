@@ -1,0 +1,124 @@
+"""The film of a recording, taken by the real viewer without a screen."""
+
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+from rerun.chunk import RrdReader
+from rerun.experimental import ViewerClient
+
+from recalib.errors import RecalibError
+from recalib.files.storage import whole
+from replication.recording.phases import ARM, CLOCK, VISIT
+from replication.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
+
+REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
+WINDOW = "1490x800"  # pixels, of which the arm has five eighths: as wide as a page
+ZOOM = 5  # steps of a tenth, by which words are larger: they can be read on a telephone
+SHOWN = 4 * VISIT  # frames at the end of each phase of visits
+STEP = 8  # frames of a visit from one picture to the next
+FRAME, LAST = 100, 2000  # milliseconds
+
+
+class _Patient:
+    """A viewer's client that asks again on a busy machine: rerun's own gives up after 15 s."""
+
+    def __init__(self, process: subprocess.Popen[bytes], client: ViewerClient):
+        self._process, self._client = process, client
+
+    def __getattr__(self, method: str) -> Callable[..., Any]:
+        ask = getattr(self._client, method)
+        return lambda *its, **named: answer(self._process, partial(ask, *its, **named))
+
+
+def take_film(recording: Path, film: Path) -> None:
+    """Write an animated WebP of what the viewer shows of the arm.
+
+    It shows the ends of both phases of visits, and learning in as many steps as one of them.
+
+    Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
+    Raises RecalibError where the viewer does not start or does not load the recording.
+    """
+    start, *others = _pictures(recording, _frames(recording))
+    with whole(film) as temporary:
+        start.save(
+            temporary,
+            format="WebP",
+            save_all=True,
+            append_images=others,
+            duration=[FRAME] * len(others) + [LAST],
+            loop=0,
+            quality=75,
+        )
+
+
+def _frames(recording: Path) -> np.ndarray:
+    """The frames of the recording that are shown."""
+    chunks = RrdReader(recording).store().stream().to_chunks()
+    batches = [chunk.to_record_batch() for chunk in chunks]
+    numbers = [its[CLOCK].to_pylist() for its in batches if CLOCK in its.schema.names]
+    first, last = min(map(min, numbers)), max(map(max, numbers))
+    visits = np.arange(max(first, -SHOWN), 0, STEP)
+    # the last frame of learning: its number is one of iterations, and the arm rests there, too
+    learning = np.linspace(0, first + last, len(visits), dtype=int)
+    return np.concatenate([visits, learning, last + 1 + visits])
+
+
+def _pictures(recording: Path, frames: np.ndarray) -> list[Image.Image]:
+    """What the viewer shows of the arm in these frames, in 256 colours: the same to the eye."""
+    taken: list[Image.Image] = []
+    with _client() as client, tempfile.TemporaryDirectory() as folder:
+        _load(client, recording)
+        for _ in range(ZOOM):
+            client.run_command("ui.zoom_in_ui")
+        for repaint in range(REPAINTS):
+            _show(client, -repaint)
+        views = {shown.name: shown.view_id for shown in client.get_state().views}
+        for frame in frames.tolist():
+            _show(client, frame)
+            png = Path(folder, f"{len(taken)}.png")
+            client.save_screenshot(str(png), views[ARM])
+            with Image.open(png) as image:
+                few = image.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+            taken.append(few.convert("RGB"))
+    return taken
+
+
+@contextmanager
+def _client() -> Iterator[_Patient]:
+    """A viewer without a screen. `ViewerClient.spawn` would listen to the whole network."""
+    port = free_port()
+    options = "--headless", "--hide-welcome-screen", "--port", port, "--window-size", WINDOW
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as log:
+        try:
+            with viewer(*options, log=log) as process:
+                url = f"rerun+http://{HERE}:{port}/proxy"
+                yield _Patient(process, answer(process, lambda: ViewerClient(url)))
+        except (ConnectionError, RuntimeError):  # it also ends later, where it first has to draw
+            log.seek(0)
+            reason = next((line.strip() for line in log if "panicked" in line), "no answer")
+            raise RecalibError(
+                f"the viewer does not run here ({reason}); it needs a Vulkan driver,"
+                " such as Debian's mesa-vulkan-drivers"
+            ) from None
+
+
+def _load(client: _Patient, recording: Path) -> None:
+    client.open(str(recording.resolve()))
+    deadline = time.monotonic() + PATIENCE
+    while (state := client.get_state()).loading or not state.recordings:
+        if time.monotonic() > deadline:
+            raise RecalibError(f"the viewer did not load {recording} within {PATIENCE:.0f} s")
+        time.sleep(0.1)
+
+
+def _show(client: _Patient, frame: int) -> None:
+    client.set_time(CLOCK, sequence=frame, play_state="paused")
+    time.sleep(0.05)

@@ -1,5 +1,0 @@
-"""Checks of a study that types cannot express: of its trainings, claims and robots."""
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
