@@ -1,18 +1,22 @@
 """The most probable arm is that of a slow implementation, and doubts are where they belong."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from recalib import (
     JOINT_ERRORS,
     OFFSETS,
+    Calibration,
     Disturbances,
     Noise,
     Observations,
+    information_gains,
     orientation_error,
     position_error,
 )
-from recalib.identification import identify
+from recalib.identification import identify, most_informative
 from recalib.identification.model import ErrorModel, displacements
 from tests import reference
 
@@ -87,3 +91,28 @@ def test_the_covariance_tells_how_wrong_predictions_are(robot, controller):
         said.append(np.einsum("ndp,pq,ndq->nd", jacobians, estimate.covariance, jacobians))
     ratio = np.sqrt(np.mean(squares, axis=(0, 1)) / np.mean(said, axis=(0, 1)))
     assert np.all((ratio > 0.8) & (ratio < 1.2)), "of a coordinate"
+
+
+@pytest.fixture
+def angles(controller):
+    return postures(controller, 9)
+
+
+@pytest.fixture(params=["poses", "positions"])
+def calibration(request, robot, damaged, angles):
+    model, measured = ErrorModel(robot.arm, OFFSETS), damaged.forward(angles[:3])
+    measured = measured if request.param == "poses" else measured[:, :3, 3]
+    return Calibration(model, identify(model, Observations(angles[:3], measured)))
+
+
+def test_each_of_a_set_is_the_best_given_those_before_it(calibration, angles):
+    left, known = {*range(len(angles))}, calibration
+    for number, covariance in most_informative(calibration, angles, 20):
+        gains = information_gains(known, angles)
+        assert number == max(left, key=gains.__getitem__)
+        left.remove(number)
+        before = np.linalg.slogdet(known.estimate.covariance).logabsdet
+        shrunk = (before - np.linalg.slogdet(covariance).logabsdet) / 2
+        assert shrunk == pytest.approx(gains[number], rel=1e-6)
+        known = replace(calibration, estimate=replace(known.estimate, covariance=covariance))
+    assert not left

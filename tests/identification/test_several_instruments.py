@@ -85,10 +85,8 @@ def test_a_pattern_has_the_axes_of_the_instrument_that_measures(ur10):
     fresh, plain = cell.observe(60, noise=(0, 0)), replace(calibration, pattern=None)
     for sight in range(3):
         rows = fresh[fresh.targets == sight]
-        errors = [
-            np.linalg.norm(its.residuals(rows)[:, :3], axis=1).mean()
-            for its in (calibration, plain)
-        ]
+        both = calibration, plain
+        errors = [np.linalg.norm(its.residuals(rows)[:, :3], axis=1).mean() for its in both]
         assert errors[0] < 0.85 * errors[1]
 
 

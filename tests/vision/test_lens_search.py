@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import load_arm
+from recalib import calibrate_pictures, load_arm
 from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.pictures.sessions import calibrate_pictures, read_folders
+from recalib.laboratory.pictures.sessions import read_folders
 from recalib.laboratory.report.summary import verdict
 from recalib.laboratory.tables.description import Description
 from recalib.vision import lens_search
