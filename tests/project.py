@@ -9,8 +9,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import psutil
-
 from tests.conftest import copy_project
 
 PATIENCE = 1200  # s, for what takes ten on a quiet machine
@@ -98,23 +96,6 @@ class Project:
         changed = os.environ | dict(environment)
         variables = {key: value for key, value in changed.items() if value is not None}
         return ended(self.start(*arguments, env=variables, **options))
-
-    def at_work(self, process: subprocess.Popen) -> list[psutil.Process]:
-        """The jobs of a run as soon as some are at work; none if it ends before."""
-        found: list[psutil.Process] = []
-
-        def seen() -> bool:
-            found[:] = self.scripts()
-            return bool(found) or process.poll() is not None
-
-        wait_until("a job is at work", seen)
-        return found
-
-    def scripts(self) -> list[psutil.Process]:
-        """The jobs at work here."""
-        folder = str(self.folder / ".snakemake" / "scripts")
-        running = psutil.process_iter(["cmdline"])
-        return [its for its in running if folder in " ".join((its.info["cmdline"] or [])[:2])]
 
 
 def ended(process: subprocess.Popen) -> Ran:

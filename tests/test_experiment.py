@@ -1,8 +1,20 @@
+"""What train does with a robot, simulated or one's own, and with a learner."""
+
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib import InvalidSetting, Outcome, Plant, corrected, position_error, train
+from recalib import (
+    ExternalRobot,
+    InvalidSetting,
+    Outcome,
+    Plant,
+    PolynomialLearner,
+    Workspace,
+    corrected,
+    position_error,
+    train,
+)
 from recalib.loop import SUMMARIES
 from tests.learners.test_hierarchical import improved
 
@@ -18,12 +30,9 @@ def history(controller, damaged, poses):
     return train(Plant(controller, damaged), improved(3), *poses, range(0, 61, 4))
 
 
-def test_learning_reduces_both_errors_of_every_run(history):
+def test_learning_reduces_both_errors_of_every_run_by_two_moves_an_iteration(history):
     for errors in (history.position, history.orientation):
         assert (errors[:, -1] < 0.3 * errors[:, 0]).all()
-
-
-def test_two_moves_an_iteration_are_counted(history):
     assert np.array_equal(history.moves, 2 * history.iterations)
     assert not history.refused.any()
 
@@ -115,3 +124,37 @@ def test_each_measurement_that_is_asked_for_is_made_once_or_refused(controller, 
     for wrong in ([0, 5], [-1, 4], []):
         with pytest.raises(InvalidSetting, match="measure_at .*expected: numbers from 0 to 4"):
             train(Plant(controller, damaged), improved(3), desired, tests, wrong)
+
+
+CENTRE = np.diag([1.0, -1.0, -1.0, 1.0])
+WORKSPACE = Workspace(CENTRE, np.array([0.2, 0.2, 0.2, 0.3, 0.3, 0.3]))
+PUSHED = np.eye(4)
+PUSHED[:3, 3] = 0.01, 0.0, -0.02  # m
+
+
+@pytest.fixture
+def external() -> ExternalRobot:
+    """Pushed; it refuses whatever is commanded beyond half of the workspace's width."""
+    return ExternalRobot(WORKSPACE, lambda pose: PUSHED @ pose if pose[0, 3] < 0.1 else None)
+
+
+def test_an_own_robot_measures_coordinates_and_stays_at_home_if_it_refuses(external):
+    commands = np.random.default_rng(1).uniform(-1, 0, (2, 3, 6))
+    achieved, executed = external.execute(commands)
+    assert np.allclose(achieved - commands, [0.05, 0, -0.1, 0, 0, 0])
+    assert executed.all()
+    commands = np.zeros((2, 3, 6))
+    commands[1, :2, 0] = 0.9
+    achieved, executed = external.execute(commands)
+    assert executed.tolist() == [[True] * 3, [False, False, True]]
+    assert not achieved[1, :2].any()
+    assert external.moves == 6 and external.refused.tolist() == [0, 2]
+
+
+def test_it_takes_the_place_of_a_plant(external):
+    rng = np.random.default_rng(2)
+    desired, tests = WORKSPACE.sample(rng, 2, 30), 0.4 * WORKSPACE.sample(rng, 2, 20)
+    history = train(external, PolynomialLearner(degree=1, runs=2), desired, tests, [0, 30])
+    assert history.position[:, 0, 0] == pytest.approx(np.hypot(0.01, 0.02))
+    assert history.position[:, 1, 2].max() < 1e-4
+    assert history.moves.tolist() == [0, 30] and (history.refused[:, 1] > 0).all()

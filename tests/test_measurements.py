@@ -18,7 +18,7 @@ TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 5, 6))
 
 @pytest.mark.parametrize("executed", [True, False], ids=["executed", "refused"])
 @pytest.mark.parametrize("bad", [np.nan, -np.inf, 1e7])
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", [*KINDS, "radial"])
 def test_a_learner_refuses_what_is_no_number_and_keeps_what_it_knew(name, bad, executed, makers):
     learner = makers[name](runs=RUNS)
     before = learner.command(TESTS)
@@ -133,38 +133,13 @@ def table(robot, damaged):
     return angles, measured
 
 
-def spoilt(values, bad):
-    values = values.copy()
-    values[7, 1] = bad
-    return values
-
-
-@pytest.mark.parametrize(
-    ("spoil", "said"),
-    [
-        (lambda q, p: (spoilt(q, np.nan), p), r"joint angles of measurement 7 .*12\.6 \(rad\)"),
-        (lambda q, p: (q, spoilt(p, np.nan)), r"measurement 7 .*10 \(m in the base frame\)"),
-        (lambda q, p: (q, 1e3 * p[:, :3, 3]), r"measurement 0 .*10 \(m in the base frame\)"),
-        (lambda q, p: (q, p.swapaxes(1, 2)), r"measurement 0 .*a rotation and a position, above"),
-        (lambda q, p: (q, p @ np.diag([-1, 1, 1, 1])), r"measurement 0 .*a rotation"),
-        (lambda q, p: (q, p @ np.diag([1.02] * 3 + [1])), r"measurement 0 .*a rotation"),
-    ],
-    ids=["NaN", "no pose", "mm", "transposed", "mirrored", "scaled"],
-)
-def test_a_table_from_which_no_arm_can_be_identified_is_refused(spoil, said, table, robot):
-    with pytest.raises(BadMeasurement, match=said):
-        calibrate(robot.arm, [OFFSETS], Observations(*spoil(*table)))
-
-
 def test_an_identification_that_is_led_astray_names_a_measurement(table, robot):
     """To where a link has turned once around, and no small change of its turn means anything."""
     model, seen = ErrorModel(robot.arm, OFFSETS), Observations(*table)
     astray = np.zeros_like(model.deviations)
     astray[9] = 2 * np.pi
     start = replace(identify(model, seen), parameters=astray)
-    with pytest.raises(
-        BadMeasurement, match="measurement 0 .*expected: what the same arm explains"
-    ):
+    with pytest.raises(BadMeasurement, match="measurement 0 .*: what the same arm explains"):
         identify(model, seen, start)
 
 

@@ -20,9 +20,6 @@ def test_a_smooth_function_is_found_where_it_was_not_seen():
     misses = process.predict(INPUTS[40:]) - SMOOTH[40:]
     assert np.all(np.std(misses, axis=0) < 0.03 * np.std(SMOOTH, axis=0))
     assert process.gain > 0
-
-
-def test_noise_is_no_gain():
     for _ in range(4):
         assert Process(INPUTS[:20], GENERATOR.standard_normal((20, 1))).gain < 0
 

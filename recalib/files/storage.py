@@ -3,13 +3,16 @@
 import hashlib
 import os
 import stat
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from recalib.errors import InvalidFile
 
 IN_THE_MAKING = ".part"
+MOST_TOML = 16_000  # bytes: tomllib's memory grows with the square of the parts of a key
 
 
 def read_file(path: str | os.PathLike[str], most: int) -> bytes:
@@ -34,6 +37,18 @@ def read_file(path: str | os.PathLike[str], most: int) -> bytes:
         found = f"it has {size / 1e6:.3g} MB"
         raise InvalidFile(path, f"{found}; expected: at most {most / 1e6:.3g} MB")
     return content
+
+
+def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """The content of the TOML at `path`. Raises InvalidFile, with the line of a mistake."""
+    try:
+        parts = tomllib.loads(read_file(path, MOST_TOML).decode("utf-8"))
+        repr(parts)  # as a message would show them: parts of parts may be too many
+        return parts
+    except ValueError as error:  # not UTF-8, or not TOML
+        raise InvalidFile(path, f"it is not TOML: {error}") from None
+    except RecursionError:
+        raise InvalidFile(path, "its parts are nested too deep") from None
 
 
 def digest(content: bytes) -> str:

@@ -63,7 +63,7 @@ def _rows(calibration: Calibration, joints: np.ndarray, optics: Optics | None = 
     """Jacobians (n, 3 or 6, P) of the measured quantities, over their noise."""
     model, estimate = calibration.model, calibration.estimate
     noise = np.repeat(estimate.noise, 3)
-    _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints))
+    _, jacobians = model.linearise(estimate.parameters, joints)
     if optics is not None:
         jacobians[..., model.optics_columns] = -optics.slopes
         jacobians = Observations(joints, optics=optics).whitened(jacobians)

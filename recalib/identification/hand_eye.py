@@ -26,7 +26,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.closed_forms import solutions
 from recalib.identification.model.frames import nearest_rotation
-from recalib.identification.model.linearisation import LEVER, displacements
+from recalib.identification.model.linearisation import LEVER, displaced, displacements
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 
@@ -328,31 +328,20 @@ def _with_noise(found: HandEye) -> HandEye:
 
 def _moved_to_best(found: HandEye) -> HandEye:
     """The best camera, board and optics by the noise and weights of a calibration."""
+    sights = found.sights
+    reach = max(np.abs(poses[:, :3, 3]).max() for poses in (sights.flange, sights.board))
     for _ in range(STEPS):
         linear = LinearHandEye(found)
         information, gradient = linear.normal_equations(linear.precisions, found.weights)
         scale = 1 / np.sqrt(np.maximum(information.diagonal(), np.finfo(float).tiny))
         inverse = np.linalg.pinv(information * scale * scale[:, None], rcond=1e-12, hermitian=True)
         covariance = inverse * scale * scale[:, None]
-        step = _bounded(covariance @ gradient, found.sights)
-        camera, board = _moved(found.camera, step[:6]), _moved(found.board, step[6:ENDS])
+        step = covariance @ gradient
+        positions, turns = np.abs(step[:ENDS].reshape(2, 2, 3)).max(axis=(0, 2))
+        step /= max(1.0, positions / reach, turns / LONGEST)  # longer ones may never end
+        camera, board = displaced(found.camera, step[:6]), displaced(found.board, step[6:ENDS])
         optics = found.optics + step[ENDS:]
         found = replace(found, camera=camera, board=board, optics=optics, covariance=covariance)
         if np.abs(step[:ENDS]).max() < SMALL:
             break
     return found
-
-
-def _bounded(step: np.ndarray, sights: Sights) -> np.ndarray:
-    """A step of at most `LONGEST`, and as far as poses lie: longer ones may never end."""
-    positions, turns = np.abs(step[:ENDS].reshape(2, 2, 3)).max(axis=(0, 2))
-    reach = max(np.abs(poses[:, :3, 3]).max() for poses in (sights.flange, sights.board))
-    return step / max(1.0, positions / reach, turns / LONGEST)
-
-
-def _moved(pose: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """A pose displaced by (6,) m and rad along and about the axes of its frame."""
-    moved = pose.copy()
-    moved[:3, 3] += step[:3]
-    moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
-    return moved

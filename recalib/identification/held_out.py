@@ -5,13 +5,12 @@ tests extrapolation. A posture is held out as a whole, with all its targets and 
 its rows would reveal the others.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.cluster.vq import kmeans, vq
 
-from recalib.identification.calibration import Calibration
 from recalib.identification.checks.postures import Postures
 from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.observations import Observations
@@ -20,9 +19,6 @@ from recalib.numerics.randomness import generator
 
 FOLDS = 5
 COVERED = 0.95  # of what is measured should lie within the intervals
-
-# From the rows that are held out (n,) to calibrations by all others, by what is done.
-Fit = Callable[[np.ndarray], Mapping[str, Calibration]]
 
 
 @dataclass(frozen=True)
@@ -74,8 +70,12 @@ class HeldOut:
         Args:
             kind: 0 of position [m], 1 of orientation [rad].
         """
-        off = self.errors[:, kind]
-        return max(_covering(off[self.folds == fold]) for fold in np.unique(self.folds))
+        off, radii = self.errors[:, kind], []
+        for fold in np.unique(self.folds):
+            some = np.sort(off[self.folds == fold])
+            rank = min(len(some), int(np.ceil((len(some) + 1) * COVERED)))
+            radii.append(float(some[rank - 1]))  # the least that covers 95 % of others like them
+        return max(radii)
 
     def coverage(self) -> float:
         """The part of positions within the radius of the other folds."""
@@ -84,12 +84,6 @@ class HeldOut:
             for fold in np.unique(self.folds)
         ]
         return float(np.concatenate(within).mean())
-
-
-def _covering(errors: np.ndarray) -> float:
-    """The least of them that covers 95 % of others like them."""
-    rank = min(len(errors), int(np.ceil((len(errors) + 1) * COVERED)))
-    return float(np.sort(errors)[rank - 1])
 
 
 def random_folds(observations: Observations, postures: Postures) -> np.ndarray:
@@ -134,14 +128,3 @@ def _divided(
         if np.ptp(parts[its]) == 0:
             parts[its] = divide(its)
     return parts[postures.numbers]
-
-
-def hold_out(fit: Fit, observations: Observations, folds: np.ndarray) -> dict[str, HeldOut]:
-    """Calibrate without each fold in turn, and predict it; by what is done."""
-    residuals: dict[str, np.ndarray] = {}
-    for fold in np.unique(folds):
-        held = folds == fold
-        for kind, calibration in fit(held).items():
-            every = residuals.setdefault(kind, np.empty((len(held), 3 * observations.kinds)))
-            every[held] = calibration.residuals(observations[held])
-    return {kind: HeldOut(every, folds, observations.optics) for kind, every in residuals.items()}

@@ -68,7 +68,9 @@ def initial_frames(
     check_rows(observations)
     rng = generator(0, "first guess")
     if len(observations) > MOST:
-        observations = observations[_some(observations, rng.permutation(len(observations)))]
+        group, order = observations.groups, rng.permutation(len(observations))
+        rare = np.flatnonzero(~np.isin(group, group[order[:MOST]]))  # all rows of other groups
+        observations = observations[np.union1d(order[:MOST], rare)]
     tool = arm.forward(observations.joints)
     if observations.measured is not None and base is None and _is_open(tool, observations, target):
         raise NoInitialEstimate(
@@ -106,13 +108,6 @@ def joined_frames(parts: Sequence[Frames], sights: np.ndarray) -> Frames:
     bases = np.array([parts[sight].base for sight in instruments])
     ends = np.array([parts[sight].targets[0] for sight in targets])
     return replace(parts[0], base=bases[0], further=bases[1:], targets=ends, sights=sights)
-
-
-def _some(observations: Observations, order: np.ndarray) -> np.ndarray:
-    """The first rows of an order, and all rows of groups that none of these is of."""
-    group = observations.groups
-    rare = np.flatnonzero(~np.isin(group, group[order[:MOST]]))
-    return np.union1d(order[:MOST], rare)
 
 
 def _small_sets(observations: Observations, rng: np.random.Generator) -> Iterator[np.ndarray]:

@@ -13,16 +13,15 @@ from recalib.arrays import array_of, check_rotations
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.identification.checks.repeatability import weigh
-from recalib.identification.checks.scales import scales
+from recalib.identification.checks.scales import returning, scales
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.validation import validate
 from recalib.laboratory.data_set import DataSet, data_set
-from recalib.laboratory.plausibility.fault_words import in_words, without_shift
 from recalib.laboratory.plausibility.knowledge import check_distances, frames_of, mistake_in
 from recalib.laboratory.plausibility.mistakes import check_nominal
+from recalib.laboratory.report.doubts import fault_in_words
 from recalib.laboratory.report.summary import summary
-from recalib.laboratory.results import Results
+from recalib.laboratory.results import Results, without_shift
 from recalib.laboratory.tables.columns import SOCKETS, TARGETS, TIMES
 from recalib.laboratory.tables.description import Description, read_description
 from recalib.laboratory.tables.measurements import Measurements, check_measured, read_measurements
@@ -178,16 +177,18 @@ def identified(
     frames = known.stated_in(frames_of(arm, data))
     if observations.optics is not None:
         frames = frames.with_optics(observations.optics)
-        observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)
+        covariance = returning(ErrorModel(arm, OFFSETS, frames), observations)
+        observations = observations.with_noise(covariance)
         data = replace(data, observations=observations)
     check_distances(arm, data, frames)
     mistake = mistake_in(arm, observations, frames)
     try:
         validation = validate(arm, observations, frames, on_progress)
     except Untrustworthy as error:
-        reasons = [in_words(fault, data, frames) for fault in without_shift(error.faults, mistake)]
+        found = without_shift(error.faults, mistake)
+        reasons = [fault_in_words(fault, data, frames) for fault in found]
         reasons += [f"likely: {mistake}"] if mistake else []
-        reasons += data.cameras.doubts if data.cameras else []
+        reasons += data.doubts
         ranges = data.rows_of_sights if len(data.tables) > 1 else []
         raise Untrustworthy("; ".join([str(error), *reasons, *ranges])) from None
     sizes = scales(arm, observations[validation.counted], frames)

@@ -14,17 +14,18 @@ from recalib.files.outputs import check_new, write_new
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
-from recalib.laboratory.hand_eye.conventions import convention_of
+from recalib.laboratory.hand_eye.pose_table import convention_of
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
-from recalib.laboratory.report.folder import files_of, postures_table
+from recalib.laboratory.report.folder import files_of
+from recalib.laboratory.report.templates import UNITS, render
 from recalib.laboratory.tables.columns import TARGETS
-from recalib.laboratory.tables.measurements import STILL, read_desired
+from recalib.laboratory.tables.measurements import STILL, postures_table, read_desired
 from recalib.laboratory.tables.table import read_table
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
-from recalib.spelling import counted, listed
+from recalib.spelling import counted
 
 TURNED = 0.01  # deg: a rotation that is off by less is reached
 Options = argparse.Namespace
@@ -131,23 +132,12 @@ def correct(options: Options) -> int:
     commands = correction.correct(poses, rows.joints, names, frame)
     table = postures_table(arm, commands.joints, commands.poses, fake=True)
     write_new(options.out, table, ".csv")
-    ends = correction.unidentifiable_ends
-    if ends and frame == BASE:
-        _warn(
-            f"errors of {ends} are not identifiable from the measurements, and remain in commands"
-            " in the base; try: --frame instrument, or a calibration with measured rotations and"
-            " with [target] in its description"
-        )
-    turned = np.degrees(commands.turned)
-    if turned.max() > TURNED:
-        _warn(
-            f"an arm of {len(arm.coupling.columns)} joints cannot reach every rotation; errors are"
-            f" up to {turned.max():.2g} deg, the largest in row {turned.argmax() + 1}"
-        )
-    if commands.beyond.any():
-        _warn(_beyond(correction, commands))
-    if commands.outside.any():
-        _warn(_outside(commands))
+    values = {"correction": correction, "commands": commands, "most": TURNED}
+    values["ends"] = correction.unidentifiable_ends if frame == BASE else None
+    values["turned"] = np.degrees(commands.turned)
+    values["beyond"] = _beyond(correction, commands) if commands.beyond.any() else None
+    for line in render("correct.txt.j2", **values).splitlines():
+        print(f"recalib: warning: {line}", file=sys.stderr)
     made = counted(len(commands.joints), "command")
     print(f"{made} in {options.out}: joint coordinates, and the poses that")
     print(f"the nominal kinematics give them, of {arm.tool} in {arm.base}")
@@ -186,40 +176,22 @@ def urdf(options: Options) -> int:
     return DONE
 
 
-def _beyond(correction: Correction, commands: Commands) -> str:
-    """The commands that leave the range that was learned from, and the farthest, in words."""
-    rows, coupling = np.flatnonzero(commands.beyond.any(axis=1)), correction.arm.coupling
-    low, high = correction.postures.min(axis=0), correction.postures.max(axis=0)
+def _beyond(correction: Correction, commands: Commands) -> dict[str, Any]:
+    """The commands that leave the range that was learned from, and the farthest [mm, deg]."""
+    coupling, postures = correction.arm.coupling, correction.postures
+    low, high = postures.min(axis=0), postures.max(axis=0)
     parts = commands.beyond / np.maximum(high - low, STILL)
     row, joint = np.unravel_index(parts.argmax(), parts.shape)
-    scale, unit = (1e3, "mm") if coupling.slides[joint] else (180 / np.pi, "deg")
-    low, high, far = (scale * numbers[joint] for numbers in (low, high, commands.beyond[row]))
-    names = listed(np.array(coupling.columns)[commands.beyond.any(axis=0)], "and")
-    leave = "leaves" if len(rows) == 1 else "leave"
-    return (
-        f"{len(rows)} of {counted(len(commands.beyond), 'command')} {leave} the measured range of"
-        f" {names}; the farthest is row {row + 1}, with {coupling.columns[joint]} {far:.3g} {unit}"
-        f" beyond {low:.4g} to {high:.4g} {unit}"
-    )
-
-
-def _outside(commands: Commands) -> str:
-    """The commands whose poses are not among those that were measured, in words."""
-    count = np.count_nonzero(commands.outside.any(axis=1))
-    parts = zip(("", "turned "), (1e3, 180 / np.pi), ("mm", "deg"), commands.outside.T, strict=True)
-    farthest = [
-        f"row {far.argmax() + 1} by {how}{scale * far.max():.3g} {unit}"
-        for how, scale, unit, far in parts
-        if far.any()
-    ]
-    return (
-        f"{count} of {counted(len(commands.outside), 'command')} take the arm to poses outside"
-        f" those measured, where its errors are unknown; the farthest: {' and '.join(farthest)}"
-    )
-
-
-def _warn(text: str) -> None:
-    print(f"recalib: warning: {text}", file=sys.stderr)
+    scale, unit = UNITS[0] if coupling.slides[joint] else UNITS[1]
+    ends = {"low": low, "high": high, "far": commands.beyond[row]}
+    return {
+        "rows": np.count_nonzero(commands.beyond.any(axis=1)),
+        "joints": np.array(coupling.columns)[commands.beyond.any(axis=0)],
+        "row": row,
+        "joint": joint,
+        "unit": unit,
+        **{name: scale * numbers[joint] for name, numbers in ends.items()},
+    }
 
 
 def board(options: Options) -> int:

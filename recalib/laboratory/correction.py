@@ -9,7 +9,7 @@ kinematics make the joint coordinates that take the real arm to the desired pose
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -17,16 +17,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.errors import InvalidSetting, RecalibError, UnknownName
+from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.archives import MOST, archive_of, opened, refused
 from recalib.files.storage import read_file, whole
 from recalib.identification.calibration import Calibration
-from recalib.identification.checks.poses import outside_of
+from recalib.identification.checks.postures import outside_of
 from recalib.identification.model.error_model import by_sight
-from recalib.laboratory.reaching import Goals, Reached, reach
+from recalib.laboratory.reaching import Goals, poses_at, reach_all
 from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import orientation_error
 from recalib.spelling import listed
 
 FORMAT, WRITER = ("recalib correction", 4), "recalib calibrate"
@@ -35,15 +35,6 @@ BASE, INSTRUMENT = FRAMES = "base", "instrument"  # in which poses are desired
 NEAR = 0.05  # m from a desired pose to where the joints given with it take the arm
 BETTER = 0.1  # the part of this distance that is left if the frame is the other one
 MARGIN = 0.05  # beyond the range learned from, as a part of it
-
-
-class NotReached(RecalibError):
-    """Desired poses that the arm cannot reach. Attributes: rows, counted from 1."""
-
-    def __init__(self, rows: Sequence[int], reason: str):
-        self.rows = [*rows]
-        others = f", and neither can {len(self.rows) - 1} more" if len(self.rows) > 1 else ""
-        super().__init__(f"row {self.rows[0]} cannot be reached{others}: {reason}")
 
 
 @dataclass(frozen=True)
@@ -111,10 +102,11 @@ class Correction:
         """
         goals = self._goals(poses, near, target, frame)
         self._check_frame(goals)
-        found = self._reach(goals)
+        found = reach_all(self.calibration, self.postures, goals)
         turned = np.zeros(len(found))
         if goals.poses.ndim == 3:
-            turned = orientation_error(goals.forward(self.calibration, found), goals.poses)
+            reached = poses_at(self.calibration, found, goals.targets)
+            turned = orientation_error(reached, goals.poses)
         low, high = self.postures.min(axis=0), self.postures.max(axis=0)
         outside = np.maximum(low - found, found - high)
         beyond = np.where(outside > MARGIN * (high - low), outside, 0.0)
@@ -137,12 +129,9 @@ class Correction:
 
         Raises as `correct`.
         """
-        joints: np.ndarray = self._reach(self._goals(pose, near, target, frame))[0]
+        goals = self._goals(pose, near, target, frame)
+        joints: np.ndarray = reach_all(self.calibration, self.postures, goals)[0]
         return joints
-
-    def solve(self, goals: Goals) -> Reached:
-        """Joint coordinates for poses in the base, reached or not."""
-        return reach(self.calibration, self.postures, goals)
 
     @cached_property
     def postures(self) -> np.ndarray:
@@ -172,13 +161,9 @@ class Correction:
         if not self.urdf:
             valid = "the file of the arm: only what was calibrated with it can be saved"
             raise InvalidSetting("urdf", None, valid)
-        header = {
-            "format": FORMAT[0],
-            "version": FORMAT[1],
-            "tool": self.arm.tool,
-            "base": self.arm.base,
-            "targets": self.targets,
-        }
+        form, version = FORMAT
+        arm = {"tool": self.arm.tool, "base": self.arm.base, "targets": self.targets}
+        header = {"format": form, "version": version, **arm}
         urdf = np.frombuffer(self.urdf, dtype=np.uint8)  # in whichever encoding it is
         state = {"urdf": urdf, "learned": self.learned, "calibration": self.calibration.state()}
         return archive_of(header, state)
@@ -239,29 +224,14 @@ class Correction:
         if len(names) not in (1, len(goals)):
             raise InvalidSetting("target", f"{len(names)} names", f"one, or {len(goals)}")
         numbers = np.array([self.targets.index(name) for name in names])
-        return goals.of_targets(np.resize(numbers, len(goals)))
-
-    def _reach(self, goals: Goals) -> np.ndarray:
-        """Joint coordinates (n, joints) that reach the goals. Raises NotReached."""
-        found = self.solve(goals)
-        if found.reached.all():
-            return found.joints
-        rows = np.flatnonzero(~found.reached)
-        first = rows[:1]
-        if not found.solved[first]:
-            (pose,) = goals[first].forward(self.calibration, found.joints[first])
-            gap = _gap(pose, goals[first].reachable(self.arm).poses[0])
-            raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
-        (low, high), joints = self.arm.coupling.limits, found.joints[rows[0]]
-        names = listed(np.array(self.arm.coupling.columns)[(joints < low) | (joints > high)], "and")
-        raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
+        return replace(goals, targets=np.resize(numbers, len(goals)))
 
     def _outside(self, goals: Goals) -> np.ndarray:
         """How far goals are from the poses that were measured: (n, 2) m and rad."""
         far = np.zeros((len(goals), 2))
         for target, rows in by_sight(goals.targets, len(goals)):
-            targets = None if goals.targets is None else np.full(len(self.postures), target)
-            known = Goals(self.postures, None, targets).forward(self.calibration, self.postures)
+            number = None if goals.targets is None else target
+            known = poses_at(self.calibration, self.postures, number)
             far[rows] = outside_of(known, goals.poses[rows])
         return far
 
@@ -271,15 +241,10 @@ class Correction:
         if near is None or len(self.targets) > 1 or len(self.calibration.frames.sockets):
             return
         frame = BASE if goals.targets is None else INSTRUMENT
-        joints = self.arm.coupling.joints(near)
-        ends = {
-            BASE: self.calibration.forward(joints),
-            INSTRUMENT: self.calibration.predict(joints),
-        }
-        gaps = {
-            name: np.median(np.linalg.norm(poses[:, :3, 3] - places, axis=1))
-            for name, poses in ends.items()
-        }
+        gaps = {}
+        for name, target in ((BASE, None), (INSTRUMENT, 0)):
+            off = poses_at(self.calibration, near, target)[:, :3, 3] - places
+            gaps[name] = np.median(np.linalg.norm(off, axis=1))
         (other,) = gaps.keys() - {frame}
         if gaps[other] < min(NEAR, BETTER * gaps[frame]) and gaps[frame] > NEAR:
             raise InvalidSetting(
@@ -317,11 +282,3 @@ def load_correction(path: str | PathLike[str]) -> Correction:
     """
     file = Path(path) if Path(path).is_file() else Path(path, NAME)
     return Correction.from_archive(read_file(file, MOST), file)
-
-
-def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
-    """How far a pose (4, 4) is from a desired pose or position, in words."""
-    if goal.ndim == 1:
-        return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
-    position, orientation = position_error(pose, goal), orientation_error(pose, goal)
-    return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"

@@ -1,9 +1,8 @@
 """Measurements of an arm, with the names of instruments, targets and sockets."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
@@ -16,19 +15,6 @@ from recalib.nominal.kinematics import Arm
 
 INSTRUMENT: tuple[str, ...] = ("the instrument",)
 TARGET: tuple[str, ...] = ("the target",)
-
-
-class Cameras(Protocol):
-    """The cameras of a data set."""
-
-    @property
-    def doubts(self) -> Sequence[str]:
-        """What is doubtful about lenses, in sentences without their full stops."""
-        ...
-
-    def lens_files(self, optics: np.ndarray) -> Mapping[str, bytes]:
-        """Files of the lenses with corrections (o,), by name; see `OPTICS`."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -44,7 +30,9 @@ class DataSet:
         tables: the files with the measurements; several are each of another sight.
         nominal: (n, 3) m, where the positions should have been; None if unknown.
         boards: names of the boards in pictures.
-        cameras: what took these pictures; None without pictures.
+        doubts: what is doubtful about lenses, in sentences without their full stops.
+        lens_files: files of the lenses with corrections (o,) by name, see `OPTICS`; None without
+            pictures.
     """
 
     observations: Observations
@@ -56,7 +44,8 @@ class DataSet:
     tables: tuple[Path, ...] = ()
     nominal: np.ndarray | None = None
     boards: tuple[str, ...] = ()
-    cameras: Cameras | None = None
+    doubts: Sequence[str] = ()
+    lens_files: Callable[[np.ndarray], Mapping[str, bytes]] | None = None
 
     def __len__(self) -> int:
         return len(self.observations)
@@ -64,7 +53,7 @@ class DataSet:
     @property
     def target_names(self) -> list[str]:
         """The targets in a sentence: `target left` if a table names several."""
-        plain = len(self.targets) == 1 or self.cameras is not None
+        plain = len(self.targets) == 1 or self.observations.optics is not None
         return [name if plain else f"target {name}" for name in self.targets]
 
     @property

@@ -5,14 +5,14 @@ There the instrument saw the target and nothing was hit, which joint limits do n
 near the ends of joint ranges are left out.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from recalib.errors import InvalidSetting, RecalibError
 from recalib.identification.design import most_informative
 from recalib.laboratory.correction import Correction
-from recalib.laboratory.reaching import Goals
+from recalib.laboratory.reaching import Goals, reach
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 from recalib.spelling import counted
@@ -65,27 +65,19 @@ def propose(
         raise InvalidSetting("candidates", None, "postures in which the ball sits in a socket")
     else:
         postures = _drawn(correction)
-    calibration = correction.calibration
-    model, estimate = calibration.model, calibration.estimate
-    coupling = correction.arm.coupling
+    calibration, coupling = correction.calibration, correction.arm.coupling
     probes = coupling.joints(_drawn(correction)[:PROBES])
-    _, jacobians = model.linearise(estimate.parameters, probes, model.terms(probes))
-    chosen, uncertainty = [], [_uncertainty(jacobians, estimate.covariance)]
-    for best, covariance in most_informative(calibration, coupling.joints(postures), count):
-        chosen.append(best)
-        uncertainty.append(_uncertainty(jacobians, covariance))
-    return Proposal(postures[chosen], np.array(uncertainty))
 
+    def uncertainty(covariance: np.ndarray) -> float:
+        """The mean deviation [m] of predicted positions, by the covariance of the parameters."""
+        estimate = replace(calibration.estimate, covariance=covariance)
+        spread = replace(calibration, estimate=estimate).position_covariances(probes, False)
+        return float(np.sqrt(np.trace(spread, axis1=1, axis2=2)).mean())
 
-def variances(jacobians: np.ndarray, covariance: np.ndarray) -> np.ndarray:
-    """Variances (n,) [m^2] of positions, all axes together, from their Jacobians (n, 6, P)."""
-    rows = jacobians[:, :3]
-    return np.sum((rows @ covariance) * rows, axis=(1, 2))
-
-
-def _uncertainty(jacobians: np.ndarray, covariance: np.ndarray) -> float:
-    """The mean deviation [m] of positions whose Jacobians (n, 6, P) by the parameters are given."""
-    return float(np.sqrt(variances(jacobians, covariance)).mean())
+    found = [*most_informative(calibration, coupling.joints(postures), count)]
+    covariances = [calibration.estimate.covariance, *(covariance for _, covariance in found)]
+    chosen = [best for best, _ in found]
+    return Proposal(postures[chosen], np.array([*map(uncertainty, covariances)]))
 
 
 def _drawn(correction: Correction) -> np.ndarray:
@@ -106,7 +98,7 @@ def joint_limits(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
 def _useful(correction: Correction, candidates: np.ndarray | Goals) -> np.ndarray:
     """Candidates (n, columns) within reach, and off the ends of joint ranges."""
     if isinstance(candidates, Goals):
-        solved = correction.solve(candidates)
+        solved = reach(correction.calibration, correction.postures, candidates)
         found, reached = solved.joints, solved.reached
     else:
         found, reached = candidates, np.ones(len(candidates), dtype=bool)

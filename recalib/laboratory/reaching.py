@@ -1,5 +1,6 @@
 """Inverse kinematics of a calibrated arm, from postures in which it was measured."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -7,15 +8,27 @@ from numpy.typing import ArrayLike
 from scipy.spatial import KDTree
 
 from recalib.arrays import array_of, check_rotations
+from recalib.errors import RecalibError
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
+from recalib.nominal.poses import orientation_error, position_error
+from recalib.spelling import listed
 
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
 STARTS = 6  # learned postures to start from, if none is given
+
+
+class NotReached(RecalibError):
+    """Desired poses that the arm cannot reach. Attributes: rows, counted from 1."""
+
+    def __init__(self, rows: Sequence[int], reason: str):
+        self.rows = [*rows]
+        others = f", and neither can {len(self.rows) - 1} more" if len(self.rows) > 1 else ""
+        super().__init__(f"row {self.rows[0]} cannot be reached{others}: {reason}")
 
 
 @dataclass(frozen=True)
@@ -59,21 +72,10 @@ class Goals:
         """(n, 3) m."""
         return self.poses if self.poses.ndim == 2 else self.poses[:, :3, 3]
 
-    def of_targets(self, targets: np.ndarray) -> "Goals":
-        """The same as poses of targets (n,) in the instrument's frame."""
-        return replace(self, targets=targets)
-
     def reachable(self, arm: Arm) -> "Goals":
         """What an arm reaches: of poses, with fewer than six joints, positions."""
         few = len(arm.coupling.columns) < 6
         return replace(self, poses=self.positions) if few else self
-
-    def forward(self, calibration: Calibration, joints: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) [m] that joints (n, columns) give of what is desired."""
-        joints = calibration.model.nominal.coupling.joints(joints)
-        if self.targets is None:
-            return calibration.forward(joints)
-        return calibration.predict(joints, self.targets)
 
 
 @dataclass(frozen=True)
@@ -90,10 +92,15 @@ class Reached:
     errors: np.ndarray
     reached: np.ndarray
 
-    @property
-    def solved(self) -> np.ndarray:
-        """(n,) whether a pose is reached, within limits or beyond."""
-        return self.errors <= TOLERANCE
+
+def poses_at(
+    calibration: Calibration, joints: np.ndarray, targets: np.ndarray | int | None
+) -> np.ndarray:
+    """Poses (n, 4, 4) [m] at joints (n, columns) of targets, by their numbers, or of the tool."""
+    every = calibration.model.nominal.coupling.joints(joints)
+    if targets is None:
+        return calibration.forward(every)
+    return calibration.predict(every, np.broadcast_to(targets, len(every)))
 
 
 def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reached:
@@ -122,18 +129,42 @@ def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reache
     return Reached(found, errors, reached)
 
 
+def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np.ndarray:
+    """Joint coordinates (n, columns) [rad, m] that reach all goals; see `reach`.
+
+    Raises NotReached.
+    """
+    found, arm = reach(calibration, learned, goals), calibration.model.nominal
+    if found.reached.all():
+        return found.joints
+    rows = np.flatnonzero(~found.reached)
+    goal, joints = goals[rows[:1]], found.joints[rows[0]]
+    if found.errors[rows[0]] > TOLERANCE:
+        (pose,) = poses_at(calibration, joints[None], goal.targets)
+        gap = _gap(pose, goal.reachable(arm).poses[0])
+        raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
+    low, high = arm.coupling.limits
+    names = listed(np.array(arm.coupling.columns)[(joints < low) | (joints > high)], "and")
+    raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
+
+
+def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
+    """How far a pose (4, 4) is from a desired pose or position, in words."""
+    if goal.ndim == 1:
+        return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
+    position, orientation = position_error(pose, goal), orientation_error(pose, goal)
+    return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"
+
+
 def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> list[np.ndarray]:
     """Learned postures (n, joints) near goals, the nearest first."""
     count, dimensions = min(STARTS, len(learned)), goals.poses.ndim
     found = np.empty((count, len(goals), learned.shape[1]))
     for target, rows in by_sight(goals.targets, len(goals)):
-        same = None if goals.targets is None else np.full(len(learned), target)
-        poses = Goals(learned, None, same).forward(calibration, learned)
-        tree, wanted = (
-            KDTree(_features(poses, dimensions)),
-            _features(goals.poses[rows], dimensions),
-        )
-        found[:, rows] = learned[tree.query(wanted, k=range(1, 1 + count))[1].T]
+        poses = poses_at(calibration, learned, None if goals.targets is None else target)
+        wanted = _features(goals.poses[rows], dimensions)
+        nearest = KDTree(_features(poses, dimensions)).query(wanted, k=range(1, 1 + count))[1]
+        found[:, rows] = learned[nearest.T]
     return list(found)
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,18 +15,28 @@ from recalib.identification.checks.gains import WrongGain, wrong_gain
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.checks.outliers import Displaced, Exchanged, displaced, exchanged
 from recalib.identification.checks.scales import Scale
-from recalib.identification.checks.sequence import Fault, faults
+from recalib.identification.checks.sequence import LAG, Fault, faults
 from recalib.identification.estimation import DOUBTFUL
-from recalib.identification.model.frames import Frames
+from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.parameters import Parameter, parameters_of
 from recalib.identification.unseen import Unseen
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation
 from recalib.laboratory.correction import Commands, Correction
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.places import Place, found_places
-from recalib.laboratory.plausibility.fault_words import without_shift
+from recalib.laboratory.plausibility.mistakes import SHIFTED
 from recalib.laboratory.urdf.origins import corrected_urdf
 from recalib.nominal.descriptions import UrdfFile
 from recalib.nominal.kinematics import Arm
+from recalib.spelling import listed
+
+HARDLY = 0.5  # of a prior deviation: data that reduce it by less have not decided
+
+
+def without_shift(found: Sequence[Fault], mistake: str | None) -> list[Fault]:
+    """Faults without the lag if a mistake names it already: rows that are shifted by one."""
+    shifted = mistake is not None and mistake.startswith(SHIFTED)
+    return [fault for fault in found if not (shifted and fault.kind == LAG)]
 
 
 @dataclass(frozen=True)
@@ -123,26 +134,51 @@ class Results:
     def places(self) -> list[Place]:
         """Poses of instruments, targets and sockets that were not given."""
         tool = self.arm.tool if self.urdf is None else self.corrected[1]
-        by_geometry = self.places_by(self.geometry, self.unidentifiable, tool)
+        data = self.data
+        names = data.target_names, data.sockets, tool, data.instruments
+        by_geometry = found_places(self.geometry, self.unidentifiable, *names)
         if self.worthwhile:
             return by_geometry
         # an arm that looks right may still have an offset that is not identifiable
-        by_nominal = self.places_by(self.calibration, [], self.arm.tool)
+        names = data.target_names, data.sockets, self.arm.tool, data.instruments
+        by_nominal = found_places(self.calibration, [], *names)
         pairs = zip(by_nominal, by_geometry, strict=True)
         return [replace(one, real_deviations=other.real_deviations) for one, other in pairs]
-
-    def places_by(
-        self, calibration: Calibration, unidentifiable: Sequence[Unidentifiable], tool: str
-    ) -> list[Place]:
-        """The same by another calibration; see `found_places`."""
-        data = self.data
-        names = data.target_names, data.sockets, tool, data.instruments
-        return found_places(calibration, unidentifiable, *names)
 
     @cached_property
     def unidentifiable(self) -> list[Unidentifiable]:
         """The parameters of geometry that are not identifiable."""
         return unidentifiable_parameters(self.geometry, self.data.observations)
+
+    @cached_property
+    def parameters(self) -> list[Parameter]:
+        """All parameters of geometry, in the order of the error model."""
+        names = self.data.targets, self.data.sockets, self.data.instruments
+        return parameters_of(self.geometry.model, self.geometry.estimate, *names)
+
+    @property
+    def directions(self) -> list[tuple[Unidentifiable, str]]:
+        """Parameters of geometry that are not identifiable, each with its partners in words."""
+        names = [parameter.name for parameter in self.parameters]
+        return [
+            (one, listed((names[number] for number in (one.parameter, *one.partners)), "or"))
+            for one in self.unidentifiable
+        ]
+
+    @property
+    def identified(self) -> list[dict[str, Any]]:
+        """The parameters: name, unit, value, deviation, and `decided_by` data or prior."""
+        # not by a small deviation: the prior of what explains nothing becomes narrow
+        model = self.geometry.model
+        by_prior = model.deviations <= HELD
+        by_prior[[one.parameter for one in self.unidentifiable]] = True
+        optics = model.optics_columns
+        known = np.sqrt(np.diag(self.geometry.estimate.covariance)[optics])
+        by_prior[optics] = known > HARDLY * model.deviations[optics]
+        return [
+            vars(parameter) | {"decided_by": "prior" if prior else "data"}
+            for parameter, prior in zip(self.parameters, by_prior, strict=True)
+        ]
 
     @cached_property
     def unseen(self) -> int:

@@ -60,21 +60,8 @@ class HierarchicalLearner:
         sent = (command + correction)[:, None]
         second = execute(sent)
         check_moves(sent, second.achieved, second.executed, last)
-        kernels.learn(
-            *cells,
-            winners,
-            theta,
-            jacobian,
-            correction,
-            first.achieved,
-            first.executed,
-            second.achieved,
-            second.executed,
-            self._metric,
-            self._widths,
-            self._rate,
-            fraction,
-        )
+        held, falls = (winners, theta, jacobian, correction), (self._widths, self._rate)
+        kernels.learn(*cells, *held, *first, *second, self._metric, *falls, fraction)
         maps.waiting += 1
 
     def widths(self, fraction: float) -> np.ndarray:

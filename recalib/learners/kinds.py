@@ -4,7 +4,7 @@ Files of what was learned, the study's comparisons and its real arm follow from 
 """
 
 from collections.abc import Mapping
-from importlib import import_module
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from recalib.errors import UnknownName
@@ -33,16 +33,16 @@ class Kind(NamedTuple):
 
 
 KINDS = {
-    "hierarchical": Kind("recalib.learners.hierarchical.HierarchicalLearner"),
+    "hierarchical": Kind("recalib.learners.hierarchical:HierarchicalLearner"),
     "polynomial": Kind(
-        "recalib.learners.polynomial.PolynomialLearner",
+        "recalib.learners.corrections:PolynomialLearner",
         {"affine": {"degree": 1}, "quadratic": {"degree": 2}},
     ),
     "gaussian_process": Kind(
-        "recalib.learners.gaussian_process.GaussianProcessLearner", {"Gaussian process": {}}
+        "recalib.learners.corrections:GaussianProcessLearner", {"Gaussian process": {}}
     ),
-    "geometric": Kind("recalib.learners.geometric.GeometricLearner", {"geometric": {}}, KINEMATICS),
-    "hybrid": Kind("recalib.learners.hybrid.HybridLearner", {"hybrid": {}}, KINEMATICS),
+    "geometric": Kind("recalib.learners.geometric:GeometricLearner", {"geometric": {}}, KINEMATICS),
+    "hybrid": Kind("recalib.learners.geometric:HybridLearner", {"hybrid": {}}, KINEMATICS),
 }
 
 
@@ -50,7 +50,7 @@ def kind_of(learner: object) -> str:
     """The kind of a learner. Raises UnknownName."""
     its = type(learner)
     for name, kind in KINDS.items():
-        if kind.home == f"{its.__module__}.{its.__qualname__}":
+        if kind.home == f"{its.__module__}:{its.__qualname__}":
             return name
     raise UnknownName("kind of learner to save", its.__name__, KINDS)
 
@@ -59,6 +59,4 @@ def class_of(kind: str) -> "type[Savable]":
     """The class of a kind. Raises UnknownName."""
     if kind not in KINDS:
         raise UnknownName("kind of learner", kind, KINDS)
-    module, _, name = KINDS[kind].home.rpartition(".")
-    found: type[Savable] = getattr(import_module(module), name)
-    return found
+    return resolve_name(KINDS[kind].home)

@@ -136,18 +136,6 @@ def forward(chain: Plain, angles: np.ndarray) -> np.ndarray:
 
 
 @compiled
-def jacobians(chain: Plain, angles: np.ndarray) -> np.ndarray:
-    """Jacobians (posture, 6, n) of the first arm at joint angles (posture, n) [rad]."""
-    arms, (postures, joints) = Arms(*chain), angles.shape
-    found, pose = np.empty((postures, 6, joints)), np.empty((3, 4))
-    origins, axes = np.empty((joints, 3)), np.empty((joints, 3))
-    for posture in range(postures):
-        _stand(arms, 0, angles[posture], pose, origins, axes)
-        _write_jacobian(arms, pose, origins, axes, found[posture])
-    return found
-
-
-@compiled
 def solve(chain: Plain, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Joint angles (posture, n) [rad] that take the first arm's tool to poses, and their errors."""
     arms = Arms(*chain)
@@ -463,10 +451,8 @@ def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
                 pivot = row
         if pivot != column:
             for other in range(column, size):
-                matrix[column, other], matrix[pivot, other] = (
-                    matrix[pivot, other],
-                    matrix[column, other],
-                )
+                number = matrix[column, other]
+                matrix[column, other], matrix[pivot, other] = matrix[pivot, other], number
             vector[column], vector[pivot] = vector[pivot], vector[column]
         inverse = 1 / matrix[column, column]
         for row in range(column + 1, size):

@@ -6,8 +6,7 @@ from xml.etree import ElementTree
 import pinocchio as pin
 
 from recalib.files.storage import read_file
-from recalib.nominal.descriptions import MOST, find_urdf, parsed
-from recalib.nominal.foreign_messages import caught_messages
+from recalib.nominal.descriptions import MOST, caught_messages, find_urdf, parsed
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.meshes import with_own_meshes
 

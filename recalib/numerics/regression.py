@@ -52,11 +52,7 @@ class Process:
         self._scale = np.where(deviations > ROUNDING, deviations, 1)
         inputs, outputs = inputs - self._centre, (outputs - self._mean) / self._scale
         if hyperparameters is None:
-            hyperparameters = (
-                _search(inputs[:MOST], outputs[:MOST])
-                if len(inputs) >= FEWEST
-                else _start(inputs.shape[1])
-            )
+            hyperparameters = _search(inputs[:MOST], outputs[:MOST])
         self.hyperparameters = hyperparameters
         self._centred = inputs
         likelihood, self._weights, *_ = _likelihood(hyperparameters, inputs, outputs)
@@ -136,7 +132,10 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
     """Hyperparameters of the largest marginal likelihood that searches within the bounds find.
 
     A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
+    Of too few points, those from which a search starts.
     """
+    if len(inputs) < FEWEST:
+        return _start(inputs.shape[1])
     from scipy.optimize import minimize  # a process with hyperparameters need not wait for it
 
     dimensions = inputs.shape[1]

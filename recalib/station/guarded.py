@@ -4,7 +4,9 @@ import queue
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future, wait
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -25,10 +27,6 @@ class StationRaised(StationFailed):
     """A station raised an exception of its own: it was not made to fail so."""
 
 
-# What to call, and where to put what it returned and what it raised.
-Call = tuple[Callable[[], Any], queue.SimpleQueue[Any]]
-
-
 class Guarded:
     """A station that was opened, with its joints in the order of an arm's.
 
@@ -44,7 +42,7 @@ class Guarded:
 
     def __init__(self, opening: Callable[[], Station], arm: Arm):
         self._arm, self._stopped, self._hangs = arm, False, False
-        self._calls: queue.SimpleQueue[Call | None] = queue.SimpleQueue()
+        self._calls = queue.SimpleQueue[tuple[Callable[[], Any], Future[Any]] | None]()
         self._station: Station | None = None
         threading.Thread(target=self._work, name="station", daemon=True).start()
         self._station = self._ask("open", opening)
@@ -115,58 +113,53 @@ class Guarded:
 
         Graphics have to be closed where they were opened: in its own thread, unless that hangs.
         """
-        self._stopped, station = True, self._station
-        if station is not None:
-            answer: queue.SimpleQueue[Any] = queue.SimpleQueue()
-            self._calls.put((lambda: _close(station), answer))
-            try:
-                answer.get(timeout=0 if self._hangs else STOPPING)
-            except queue.Empty:
+        self._stopped = True
+        if self._station is not None:
+            closed = self._call(partial(_close, self._station))
+            if not wait([closed], 0 if self._hangs else STOPPING).done:
                 self._at_last(_close)
         self._calls.put(None)
 
     def _at_last(self, do: Callable[[Station], None]) -> None:
         """Whatever it is doing: from a thread of its own, for a limited time."""
-        if self._station is None:
-            return
-        station = self._station
 
-        def quietly() -> None:  # nobody is there to complain to: the failure before it is told
+        def quietly(station: Station) -> None:  # the failure before it is told
             with suppress(Exception):
                 do(station)
 
-        ending = threading.Thread(target=quietly, daemon=True)
-        ending.start()
-        ending.join(STOPPING)
+        if self._station is not None:
+            ending = threading.Thread(target=quietly, args=(self._station,), daemon=True)
+            ending.start()
+            ending.join(STOPPING)
 
     def _work(self) -> None:
         while (waiting := self._calls.get()) is not None:
             call, answer = waiting
             try:
-                answer.put((call(), None))
+                answer.set_result(call())
             except BaseException as error:
-                answer.put((None, error))
+                answer.set_exception(error)
+
+    def _call(self, call: Callable[[], Any]) -> Future[Any]:
+        answer = Future[Any]()
+        self._calls.put((call, answer))
+        return answer
 
     def _ask(self, what: str, call: Callable[..., Any]) -> Any:
         if self._stopped:
             raise StationFailed(f"the station was stopped; it is not asked to {what}")
-        answer: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        arguments = () if self._station is None else (self._station,)
-        self._calls.put((lambda: call(*arguments), answer))
-        try:
-            value, error = answer.get(timeout=PATIENCE)
-        except queue.Empty:
+        answer = self._call(call if self._station is None else partial(call, self._station))
+        if not wait([answer], PATIENCE).done:
             self._hangs = True
             raise StationFailed(
                 f"for {PATIENCE:g} s the station has not answered when asked to {what}"
-            ) from None
-        if isinstance(error, StationFailed):
-            raise error
-        if error is not None:
-            raise StationRaised(
-                f"asked to {what}, the station raised {type(error).__name__}: {error}"
-            ) from error
-        return value
+            )
+        error = answer.exception()
+        if error is None or isinstance(error, StationFailed):
+            return answer.result()
+        raise StationRaised(
+            f"asked to {what}, the station raised {type(error).__name__}: {error}"
+        ) from error
 
     def _standing(self) -> np.ndarray:
         """The angles (joints,) at which some readings agree."""

@@ -35,11 +35,12 @@ class BoardInPictures:
         in_hand: whether the camera is on the hand.
 
     Attributes:
+        board, lens, in_hand: as given.
         tool_radius: m that a board around the tool link's origin takes, however it is turned.
     """
 
     def __init__(self, board: Board, lens: Lens, in_hand: bool):
-        self.lens, self._setup = lens, (board, lens, in_hand)
+        self.board, self.lens, self.in_hand = board, lens, in_hand
         self.tool_radius = 0.0 if in_hand else float(np.linalg.norm(board.size)) / 2
         self._sightings: dict[str, Sighting] = {}
 
@@ -48,22 +49,21 @@ class BoardInPictures:
 
         Raises InvalidFile: the lens cannot be that of the picture.
         """
-        board, lens, _ = self._setup
         try:
-            found = find_corners(board, grey)
+            found = find_corners(self.board, grey)
         except Unusable:
             return None
-        off = reprojection(board, lens, found, board_pose(board, lens, found))
+        seen = self.board, self.lens, found
+        off = reprojection(*seen, board_pose(*seen))
         if not (typical := float(np.median(np.linalg.norm(off, axis=1)))) < WRONG:
             reason = f"its corners deviate from the given lens by {typical:.3g} px"
             raise InvalidFile(path, f"{reason}; is it this camera's?")
-        corners = good_corners(board, lens, found)
+        corners = good_corners(*seen)
         return self.add(path, corners) if len(corners.numbers) >= FEWEST else None
 
     def add(self, path: str, corners: Corners) -> Sighting:
         """What a picture says with these corners."""
-        board, lens, in_hand = self._setup
-        self._sightings[path] = sighting(board, lens, corners, True, in_hand)
+        self._sightings[path] = sighting(self.board, self.lens, corners, True, self.in_hand)
         return self._sightings[path]
 
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
@@ -80,16 +80,13 @@ class BoardInPictures:
                 raise InvalidFile(path, f"{error}; its row in the table needs it") from None
             if grey.shape[::-1] != self.lens.size or not self.search(path, grey):
                 size = " x ".join(map(str, self.lens.size))
-                reason = (
-                    f"it does not show the board in {size} pixels, as its row in the table says"
-                )
-                raise InvalidFile(path, reason)
+                reason = f"it does not show the board in {size} pixels"
+                raise InvalidFile(path, f"{reason}, as its row in the table says")
         return optics_of(self.lens, [self._sightings[path] for path in paths])
 
     def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """See `predicted_views`."""
-        board, lens, in_hand = self._setup
-        return predicted_views(board, lens, poses, in_hand)
+        return predicted_views(self.board, self.lens, poses, self.in_hand)
 
 
 class PicturesOfABoard:

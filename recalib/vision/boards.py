@@ -13,13 +13,12 @@ import yaml
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import LENGTH
-from recalib.files.storage import read_file
-from recalib.files.toml import read_toml
+from recalib.files.storage import read_file, read_toml
 from recalib.spelling import listed
 
-CHARUCO, APRILTAG, APRILGRID, CHESSBOARD, CIRCLES = KINDS = (
-    *("charuco", "apriltag", "aprilgrid", "chessboard", "circles"),
-)
+CHARUCO, APRILTAG, APRILGRID = "charuco", "apriltag", "aprilgrid"
+CHESSBOARD, CIRCLES = "chessboard", "circles"
+KINDS = CHARUCO, APRILTAG, APRILGRID, CHESSBOARD, CIRCLES
 PLAIN = CHESSBOARD, CIRCLES  # without markers: they have to be seen as a whole
 SHAPE = "kind", "columns", "rows", "square"
 MARKERS = "marker", "dictionary", "first_id"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.faults.yard import Yard, digests_of, expect_no_strays
+from tests.faults.yard import Yard, at_work, digests_of, expect_no_strays
 from tests.project import Project, ended, expect, kill
 
 RESULTS = Path("results/studies/faults")
@@ -32,7 +32,7 @@ def started_run(yard: Yard) -> tuple[Project, subprocess.Popen]:
     """A run from the beginning that is at work."""
     project = yard.bare()
     process = project.start()
-    project.at_work(process)
+    at_work(project, process)
     return project, process
 
 
@@ -47,7 +47,7 @@ def test_all_processes_are_killed_at_random_moments_and_run_again_each_time(yard
     project, rng = yard.bare(), random.Random(1996)
     for _ in range(CHAIN):
         process = project.start()
-        project.at_work(process)
+        at_work(project, process)
         time.sleep(rng.uniform(0, 3))
         kill(process)
     expect_next_run_finishes(yard, project)
@@ -57,7 +57,7 @@ def test_all_processes_are_killed_at_random_moments_and_run_again_each_time(yard
 def test_one_job_is_killed(yard):
     project = yard.bare()
     process = project.start()
-    project.at_work(process)[0].kill()
+    at_work(project, process)[0].kill()
     ended(process).badly()
     expect_next_run_finishes(yard, project)
 
@@ -84,7 +84,7 @@ def test_a_second_run_of_the_same_study_is_refused(yard):
 def test_two_studies_run_at_once_and_one_is_killed_and_run_again(yard):
     project, options = yard.bare(), ("--config", "name=other", "seed=7")
     second = project.start(*options)
-    project.at_work(second)
+    at_work(project, second)
     first = project.start()
     time.sleep(1)
     kill(second)

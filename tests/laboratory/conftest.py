@@ -5,7 +5,7 @@ import csv
 import numpy as np
 import pytest
 
-from recalib import Chain, load_arm
+from recalib import Calibrated, Chain, calibrate_arm, load_arm
 from recalib.laboratory.command_line import DONE, main
 from tests.arms import urdf
 
@@ -25,6 +25,12 @@ MIDDLE = np.array([0.0, -0.7, 1.1])
 def true_positions(arm, joints: np.ndarray) -> np.ndarray:
     """Where the bent arm goes [m]."""
     return arm.forward(joints + OFFSETS)[:, :3, 3]
+
+
+def measured(arm, joints: np.ndarray, seed: int = 4) -> np.ndarray:
+    """The same as an instrument in the arm's base sees it."""
+    noise = np.random.default_rng(seed).standard_normal((len(joints), 3))
+    return true_positions(arm, joints) + NOISE * noise
 
 
 def to_instrument(positions: np.ndarray) -> np.ndarray:
@@ -49,6 +55,17 @@ def in_millimetres(positions: np.ndarray) -> dict[str, np.ndarray]:
 
 def table(arm, joints: np.ndarray, positions: np.ndarray) -> dict[str, np.ndarray]:
     return in_degrees(arm, joints) | in_millimetres(positions)
+
+
+def calibrated_by(arm, folder, joints, positions, *description) -> Calibrated:
+    """What a table of these rows leads to."""
+    write(folder / "rows.csv", table(arm, joints, positions))
+    return calibrate_arm(folder / "arm.urdf", folder / "rows.csv", *description)
+
+
+def angles_in(sent: dict[str, np.ndarray], arm) -> np.ndarray:
+    """Joint angles (n, 3) [rad] of a table."""
+    return np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
 
 
 def postures(seed: int, count: int = ROWS, part: float = 1.0) -> np.ndarray:

@@ -1,44 +1,42 @@
-"""What is known of frames and sockets, right or wrong: of a small arm, and of a Panda."""
+"""What is known of frames, sockets and wear, right or wrong: of a small arm, and of a Panda."""
 
 import re
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, InvalidSetting
+from recalib import (
+    Calibrated,
+    InvalidFile,
+    InvalidSetting,
+    calibrate_arm,
+    load_correction,
+    read_description,
+)
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.plausibility.knowledge import WrongKnowledge
 from recalib.laboratory.propose import propose
-from recalib.laboratory.report.identified import identified_parameters
 from recalib.laboratory.report.summary import summary
 from tests.arms import SCARA
 from tests.laboratory.conftest import (
     NOISE,
     OFFSETS,
     ROWS,
+    calibrated_by,
     in_degrees,
     in_millimetres,
+    measured,
     postures,
     to_instrument,
     true_positions,
     write,
 )
 
-INSTRUMENT = """
-[instrument]
-position = ["1 m", "0 m", "0 m"]
-"""
-TARGET = """
-[target]
-position = ["0 mm", "0 mm", "50 mm"]
-"""
+INSTRUMENT = '[instrument]\nposition = ["1 m", "0 m", "0 m"]\n'
+TARGET = '[target]\nposition = ["0 mm", "0 mm", "50 mm"]\n'
 POINT = 0, 0, 0.05, 1  # m
-DISTANCE = """
-[[distance]]
-sockets = ["{}", "right"]
-length = "{} mm"
-"""
+DISTANCE = '[[distance]]\nsockets = ["{}", "right"]\nlength = "{} mm"\n'
 
 
 @pytest.fixture(scope="module")
@@ -120,7 +118,7 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     text = summary(result)
     assert "errors are those in the sockets" in text and "the instrument" not in text
     assert [place.name for place in result.places] == ["the target", "socket left", "socket right"]
-    names = [row["name"] for row in identified_parameters(result)]
+    names = [row["name"] for row in result.identified]
     assert "x of socket left, from its initial estimate" in names and "socket 1" not in str(names)
     with pytest.raises(InvalidSetting, match="candidates is missing; expected: postures in which"):
         propose(result.correction, 3)
@@ -171,12 +169,8 @@ def test_balls_in_sockets_of_the_wrong_names_are_refused(in_sockets):
 
 def test_centimetres_that_say_millimetres_are_refused(arm, folder):
     joints = postures(12)
-    write(
-        folder / "small.csv",
-        in_degrees(arm, joints) | in_millimetres(0.1 * true_positions(arm, joints)),
-    )
     with pytest.raises(Untrustworthy, match="between lift and elbow is 40 mm long by .* 400 mm"):
-        calibrate_arm(folder / "arm.urdf", folder / "small.csv")
+        calibrated_by(arm, folder, joints, 0.1 * true_positions(arm, joints))
 
 
 def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
@@ -200,3 +194,71 @@ def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
 def test_what_is_wrong_of_sockets_is_named(text, error, said, in_sockets):
     with pytest.raises(error, match=said):
         by_ball(text, in_sockets)
+
+
+STAND = np.eye(4)  # in the arm's base
+STAND[:3] = [[0, 1, 0, -0.5], [-1, 0, 0, 1.0], [0, 0, 1, 0.2]]
+
+
+def calibrated(arm, folder, text: str, part: float = 1.0):
+    """From rows in a part of the joints' ranges, with a description."""
+    joints = postures(3, 40, part)
+    (folder / "stand.toml").write_text(text)
+    positions = to_instrument(measured(arm, joints))
+    return calibrated_by(arm, folder, joints, positions, folder / "stand.toml")
+
+
+def of_instrument(shift: float, turn: float, within: str = "") -> str:
+    """Its pose, off by so much [mm, deg] along and about each axis."""
+    angles = Rotation.from_matrix(STAND[:3, :3]).as_euler("xyz", degrees=True) + turn
+    millimetres = 1e3 * STAND[:3, 3] + shift
+    lengths = [f"{number:.6f} mm{within and ' +- 3 mm'}" for number in millimetres]
+    turns = [f"{angle:.6f} deg{within and ' +- 0.3 deg'}" for angle in angles]
+    return f"[instrument]\nposition = {lengths}\nroll_pitch_yaw = {turns}\n"
+
+
+def gap(result) -> float:
+    """How far [mm] the instrument that is found is from where it is."""
+    (place,) = [its for its in result.places if its.name == "the instrument"]
+    return 1e3 * float(np.linalg.norm(place.pose[:3, 3] - STAND[:3, 3]))
+
+
+def test_a_frame_that_is_known_within_a_deviation_is_found_better(arm, folder, tmp_path):
+    """The target is known, but for a link and a joint that move as it does."""
+    known = '[target]\nposition = ["0 mm", "0 mm", "0 mm"]\n'
+    result = calibrated(arm, folder, of_instrument(3.0, 0.0, "within") + known)
+    assert gap(result) < 3 * np.sqrt(3) + 0.1
+    (place,) = result.places
+    assert place.deviations[0] < 3.2e-3 and place.real_deviations[0] < 10e-3
+    unknown = calibrated(arm, folder, known)
+    assert unknown.places[0].real_deviations[0] > 2 * place.real_deviations[0]
+
+    result.correction.save(tmp_path / "correction.npz")
+    again = load_correction(tmp_path / "correction.npz").calibration
+    joints = result.data.observations.joints
+    assert np.array_equal(again.forward(joints), result.calibration.forward(joints))
+
+
+def test_what_is_stated_of_wear_bounds_what_rows_do_not_determine(arm, folder):
+    exact = of_instrument(0.0, 0.0) + '[target]\nposition = ["0 mm", "0 mm", "0 mm"]\n'
+    wear = '[wear]\nencoders = "0.5 deg"\nlinks = ["0.1 mm", "0.01 deg"]\n'
+    model = calibrated(arm, folder, exact + wear).geometry.model
+    assert model.deviations[model.offset_columns] == pytest.approx(np.radians(0.5))
+    links = model.twists(model.deviations)[1:]
+    assert links[:, :3] == pytest.approx(1e-4) and links[:, 3:] == pytest.approx(np.radians(0.01))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('[target]\nposition = ["0 mm +- 0 mm", "0 mm", "0 mm"]', "expected: more than zero"),
+        ('[target]\nposition = ["0 mm +- two", "0 mm", "0 mm"]', "expected: a length in mm"),
+        ('[wear]\nencoders = "-1 deg"', "expected: more than zero"),
+        ('[wear]\nlinks = "2 mm"', "expected: a length and an angle"),
+        ('[wear]\ngears = "2 mm"', "expected: encoders = "),
+    ],
+)
+def test_what_is_no_deviation_is_refused(text, said, tmp_path):
+    (tmp_path / "known.toml").write_text(text)
+    with pytest.raises(InvalidFile, match=said):
+        read_description(tmp_path / "known.toml")

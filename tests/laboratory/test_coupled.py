@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from recalib import load_arm
-from recalib.laboratory.calibrate import calibrate, calibrate_arm
+from recalib import calibrate, calibrate_arm, load_arm
 from recalib.laboratory.command_line import DONE, main
 from tests.arms import urdf
 from tests.laboratory.conftest import read, write
@@ -43,9 +42,8 @@ def test_one_column_moves_both_sections(tmp_path):
     desired = {f"{axis} [m]": true(fresh)[:, index] for index, axis in enumerate("xyz")}
     write(tmp_path / "desired.csv", desired)
     out = tmp_path / "commands.csv"
-    assert (
-        main(["correct", str(tmp_path / "out"), f"{tmp_path}/desired.csv", f"--out={out}"]) == DONE
-    )
+    given = [str(tmp_path / "out"), f"{tmp_path}/desired.csv"]
+    assert main(["correct", *given, f"--out={out}"]) == DONE
     sent = read(out)
     commands = np.array([sent[name] for name in ("lift [mm]", "turn [deg]", "joint yaw [deg]")]).T
     reached = true(commands / [1e3, 180 / np.pi, 180 / np.pi])

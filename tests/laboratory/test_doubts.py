@@ -1,24 +1,24 @@
-"""What makes a calibration doubtful stands in its first line."""
+"""What makes a calibration doubtful, or is left out of it, stands in its first lines."""
 
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, Observations, load_arm
-from recalib.identification import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, parameters_of
+from recalib import OFFSETS, Calibrated, Observations, calibrate_arm, load_arm
+from recalib.identification import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, WAYS, parameters_of
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.outliers import Displaced, Exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.model import ErrorModel, Frames
-from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.doubts import doubts
-from recalib.laboratory.report.summary import summary
-from tests.laboratory.conftest import MIDDLE, NOISE, SEEN, postures, table, true_positions, write
+from recalib.laboratory.report.summary import errors_table, summary
+from tests.laboratory.conftest import MIDDLE, SEEN, calibrated_by, measured, postures, table, write
 
 ROWS = 60
 LATE = "try to measure at rest, or to synchronise both"
@@ -42,6 +42,7 @@ def result(
         validation=validation,
         faults=found,
         data=DataSet(Observations(np.zeros((ROWS, 6)), times=times)),
+        parameters=parameters_of(MODEL, estimate),
         frames=Frames(),
         geometry=geometry,
         scales={},
@@ -50,18 +51,14 @@ def result(
         displaced=[],
         exchanged=None,
         unseen=0,
-        unidentifiable=[],
+        directions=[],
     )
 
 
 @pytest.mark.parametrize(
     ("away", "geometry", "said"),
     [
-        (
-            1.48e-3,
-            1.72e-3,
-            "Careful: expect 1.48 mm away from the measured postures, not 0.405 mm. The error",
-        ),
+        (1.48e-3, 1.72e-3, "Careful: expect 1.48 mm away from the measured postures, not 0.405 mm"),
         (0.7e-3, 1.72e-3, ""),
         (1.48e-3, 0.7e-3, ""),
     ],
@@ -98,7 +95,9 @@ def test_outliers_with_one_cause_are_told_by_their_rows():
     found = result({}, GEOMETRIC)
     found.displaced = [Displaced(20, 34, 5e-3, np.radians(0.2))]
     found.exchanged = Exchanged(np.array([10, 11]), np.array([11, 10]))
-    elsewhere, order = doubts(found)
+    found.data = replace(found.data, doubts=["the lens of camera left is doubtful"])
+    lens, elsewhere, order = doubts(found)
+    assert lens == "Careful: the lens of camera left is doubtful."
     assert "in rows 21 to 35 instrument or base seem to have stood 5 mm and 0.2 deg" in elsewhere
     assert "the measurements of rows 11 and 12 fit the joints of rows 12 and 11" in order
     found.exchanged = Exchanged(np.arange(10), np.roll(np.arange(10), 1))
@@ -183,31 +182,60 @@ def test_a_mistake_that_a_fit_takes_for_errors_of_the_arm_is_named(mirrored, sai
 def test_rows_that_are_shifted_by_one_are_told_once(arm, folder):
     """Slow rows look as if poses lagged behind, too."""
     joints = MIDDLE + SEEN * np.sin(np.arange(ROWS)[:, None] * [0.31, 0.47, 0.23])
-    positions = true_positions(arm, joints)
-    positions += NOISE * np.random.default_rng(4).standard_normal((ROWS, 3))
-    write(folder / "shifted.csv", table(arm, joints[1:], positions[:-1]))
     with pytest.raises(Untrustworthy, match="likely: joints of the row") as told:
-        calibrate_arm(folder / "arm.urdf", folder / "shifted.csv")
+        calibrated_by(arm, folder, joints[1:], measured(arm, joints)[:-1])
     assert "of a step" not in str(told.value)
 
 
 def two_sessions(arm, folder, rows: int, moved: list[float]) -> Calibrated:
     """Where the instrument moved by so much [m] after so many rows."""
     joints = postures(3, ROWS)
-    positions = true_positions(arm, joints)
-    positions += NOISE * np.random.default_rng(4).standard_normal((ROWS, 3))
+    positions = measured(arm, joints)
     positions[rows:] += moved
-    write(folder / "sessions.csv", table(arm, joints, positions))
-    return calibrate_arm(folder / "arm.urdf", folder / "sessions.csv")
+    return calibrated_by(arm, folder, joints, positions)
 
 
 def test_two_sessions_are_told_of_beside_the_error(arm, folder):
     _, first, *_ = summary(two_sessions(arm, folder, 20, [6e-4, -6e-4, 5e-4])).splitlines()
     assert "Careful: between rows 20 and 21 instrument or base seem to have moved by" in first
-
-
-def test_two_sessions_that_no_arm_explains_are_refused_as_such(arm, folder):
     with pytest.raises(
         Untrustworthy, match="between rows 30 and 31 instrument or base seem to have moved by 50 mm"
     ):
         two_sessions(arm, folder, 30, [0.03, 0.0, -0.04])
+
+
+@pytest.fixture
+def with_outliers(arm, folder):
+    joints = postures(3, ROWS)
+    positions = measured(arm, joints)
+    positions[[7, 30, 31, 44]] += np.random.default_rng(5).normal(0, 0.02, (4, 3))
+    return calibrated_by(arm, folder, joints, positions)
+
+
+def test_the_first_line_and_the_table_say_how_many_rows_are_left_out(with_outliers):
+    _, first, *lines = summary(with_outliers).splitlines()
+    assert f"4 of {ROWS} rows left out as outliers" in first
+    (row,) = [line for line in lines if line.startswith("left out")]
+    largest = errors_table(with_outliers)[-1].largest
+    assert "4 rows" in row and f"{largest:.3f}" in row and largest > 10
+    # 95 percent is one number wherever it is said
+    text, validation = summary(with_outliers), with_outliers.validation
+    (used,) = [
+        row
+        for row in errors_table(with_outliers)
+        if row.chosen and row.folds == BLOCKWISE and row.unit == "mm"
+    ]
+    assert used.within == pytest.approx(1e3 * validation.radius)
+    assert text.count(f"95 % within {used.within:.3g} mm") == 2
+
+
+def test_a_part_without_which_a_direction_is_open_does_not_count(arm, folder):
+    """All postures that turn the last joint are near one another."""
+    joints = postures(3, ROWS)
+    joints[:48, 1:] = joints[0, 1:] + 1e-3 * (joints[:48, 1:] - joints[0, 1:])
+    joints[48:, 0] = 3 * np.sign(joints[48:, 0].mean()) + 0.1 * joints[48:, 0]
+    result = calibrated_by(arm, folder, joints, measured(arm, joints))
+    lost = {way: int(result.validation.lost[way].sum()) for way in WAYS}
+    assert 0 < lost[BLOCKWISE] < ROWS
+    assert f"errors {BLOCKWISE} exclude {lost[BLOCKWISE]} rows" in summary(result)
+    assert len(result.counted) == ROWS - lost[BLOCKWISE]

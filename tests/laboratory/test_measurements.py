@@ -42,6 +42,9 @@ def test_units_become_metres_and_radians_and_columns_stand_in_any_order(gantry, 
     assert np.allclose(read.joints[-1], [1.5, np.pi / 2])
     assert np.allclose(read.positions[-1], 0.002)
     assert read.columns.keys() == {"positions"}
+    times = [0, 0, 1, 1, *range(2, ROWS - 2)]
+    table = write(joints() | positions() | {"time [s]": times})
+    assert read_measurements(table, gantry).columns["times"] == pytest.approx(times)
 
 
 def test_a_table_that_was_pasted_twice_is_refused_and_a_row_that_repeats_is_not(gantry, write):
@@ -63,20 +66,15 @@ def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
     ):
         cells = ([number] * ROWS for number in numbers)
         columns = joints() | positions() | dict(zip(names, cells, strict=True))
-        assert np.allclose(
-            read_measurements(write(columns), gantry).measured[:, :3, :3], turn.as_matrix()
-        )
+        read = read_measurements(write(columns), gantry)
+        assert np.allclose(read.measured[:, :3, :3], turn.as_matrix())
 
 
-def test_targets_and_sockets_are_named(gantry, write):
+def test_targets_and_sockets_are_named_also_in_what_is_desired(gantry, write):
     names = ["left", "right"] * (ROWS // 2)
     read = read_measurements(write(joints() | {"socket": names, "target": names}), gantry)
-    assert [*read.columns["sockets"]] == [
-        *read.columns["targets"]
-    ] == names and read.positions is None
-
-
-def test_a_measured_table_may_be_desired_in_the_frame_in_which_it_was_measured(gantry, write):
+    assert [*read.columns["sockets"]] == [*read.columns["targets"]] == names
+    assert read.positions is None
     names = {"target": ["board"] * ROWS, "picture": ["a.png"] * ROWS}
     read = read_desired(write(joints() | positions() | names), gantry, target=True)
     assert [*read.columns["targets"]] == names["target"] and np.allclose(read.positions[-1], 0.002)
@@ -141,12 +139,6 @@ def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
         read_measurements(write(columns), gantry, every)
 
 
-def test_rows_of_one_time_may_come_before_others(gantry, write):
-    times = [0, 0, 1, 1, *range(2, ROWS - 2)]
-    table = write(joints() | positions() | {"time [s]": times})
-    assert read_measurements(table, gantry).columns["times"] == pytest.approx(times)
-
-
 @pytest.mark.parametrize(
     ("column", "cells", "began"),
     [
@@ -157,7 +149,6 @@ def test_rows_of_one_time_may_come_before_others(gantry, write):
     ],
 )
 def test_times_are_seconds_or_dates(column, cells, began, gantry, write):
-    times = read_measurements(write(joints() | positions() | {column: cells}), gantry).columns[
-        "times"
-    ]
+    read = read_measurements(write(joints() | positions() | {column: cells}), gantry)
+    times = read.columns["times"]
     assert np.allclose(times, began + 1.5 * np.arange(ROWS), rtol=0, atol=1e-6)

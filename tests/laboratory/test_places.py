@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, Calibration, Observations, initial_frames, load_arm
+from recalib import OFFSETS, Calibration, Observations, calibrate_arm, initial_frames, load_arm
 from recalib.files import write_new
 from recalib.identification import HYBRID, identify
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.model import ErrorModel, displacements
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.places import found_places
 from recalib.laboratory.report.folder import files_of
 from tests.arms import INDUSTRIAL
@@ -100,22 +99,15 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     base = np.linalg.inv(told["base_in_instrument"])
     assert np.allclose(instrument, 1e3 * base[:3, 3], atol=0.01)
     assert np.allclose(left, 1e3 * np.array(told["targets_in_tool"]["left"])[:3, 3], atol=0.01)
+    instrument, left, _ = read_places(calibrated[1])
+    assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
+    near, far = "deviation [mm]", "deviation relative to the real link [mm]"
+    assert 0 < float(left[near]) < 1 < float(left[far])
 
 
 def read_places(folder: Path) -> list[dict[str, str]]:
     with (folder / "frames.csv").open(newline="") as stream:
         return list(csv.DictReader(stream))
-
-
-def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibrated):
-    instrument, left, _ = read_places(calibrated[1])
-    assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
-    assert (
-        0
-        < float(left["deviation [mm]"])
-        < 1
-        < float(left["deviation relative to the real link [mm]"])
-    )
 
 
 @few_folds()

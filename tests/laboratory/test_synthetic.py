@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, load_arm, load_correction
-from recalib.laboratory.calibrate import calibrate, calibrate_arm
+from recalib import InvalidFile, calibrate, calibrate_arm, load_arm, load_correction
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report import folder as report
+from recalib.laboratory.report.page import draw_arm, draw_errors, draw_over_joints
 from recalib.laboratory.report.recording import recording_of
 from recalib.laboratory.report.summary import errors_table
 from tests.arms import urdf
@@ -44,9 +44,8 @@ def lab(tmp_path_factory):
     joints = rng.uniform(-0.9, 0.9, (ROWS, 4)) * [1.0, 0.8, 0.2, 1.1] + [0.1, -0.3, 0.4, 0.2]
     joints[:, 3] = np.where(np.arange(ROWS) % 7 == 2, joints[::-1, 3], joints[:, 3])
     clock = np.cumsum(rng.uniform(0.3, 2.0, ROWS))
-    columns = {
-        name: column for name, column in in_degrees(arm, joints).items() if "reach" not in name
-    }
+    columns = in_degrees(arm, joints)
+    del columns["reach [deg]"]
     columns["reach [cm]"] = 100 * joints[:, 2]
     poses = real.poses(joints)
     poses[6, :3, 3] += 0.02
@@ -144,6 +143,21 @@ def test_the_recording_shows_measured_rows_and_their_errors(made, tmp_path):
         assert longer == pytest.approx(longer[0], rel=1e-5)
     rows = np.unique(np.concatenate(values["/now row"]))
     assert rows.tolist() == (result.counted + 1).tolist()
+
+
+def test_drawings_name_their_axes_and_are_the_same_again(made):
+    result = made("poses")
+    arm, longer = draw_arm(result)
+    for text, labels in (
+        (draw_errors(result), {"part of the rows", "cross-validated error [mm]"}),
+        (draw_over_joints(result), {"position error [mm]", "lift [deg]", "reach [mm]"}),
+        (arm, {"from the side", "from above", "x [m]", "y [m]", "z [m]"}),
+    ):
+        assert labels <= {*re.findall(r">([^<>]+)</text>", text)} and text.startswith("<svg")
+        assert "<metadata" not in text
+    assert draw_arm(result) == (arm, longer)
+    largest = np.linalg.norm(result.residuals["before"][:, :3], axis=1).max()
+    assert longer * largest == pytest.approx(0.12, rel=0.5)  # m, of an arm of about one
 
 
 @pytest.mark.parametrize("name", ["poses", "targets"])

@@ -7,6 +7,7 @@ from importlib.util import find_spec
 
 import pytest
 
+from tests.faults.yard import at_work
 from tests.project import Project, ended, kill
 from tests.slurm.cluster import Cluster, missing
 
@@ -43,7 +44,7 @@ class Trainings:
 
     def at_work(self):
         """The first job at work, as soon as there is one."""
-        return self._project.at_work(self._process)[0]
+        return at_work(self._project, self._process)[0]
 
     def kill(self):
         """End Snakemake at once, if it still runs, and leave its jobs in Slurm alone."""

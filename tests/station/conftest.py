@@ -8,9 +8,9 @@ import pytest
 import rerun as rr
 from watched import LiveView
 
-from recalib import Observations, load_shapes
+from recalib import Answer, LiveSettings, Observations, calibrate_live, load_shapes
 from recalib.laboratory.live.running import RunningCalibration
-from recalib.laboratory.live.session import Answer, Ended, LiveSettings, Move, calibrate_live
+from recalib.laboratory.live.session import Ended, Move
 from recalib.nominal import find_urdf
 from tests.station.simulated import Simulated
 

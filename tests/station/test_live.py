@@ -12,19 +12,22 @@ import numpy as np
 import pytest
 
 from recalib import (
+    Answer,
     Description,
     InvalidFile,
     InvalidSetting,
+    LiveSettings,
     NotReached,
     Observations,
     StationFailed,
     UnknownName,
+    calibrate_arm,
+    calibrate_live,
 )
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.running import RunningCalibration
-from recalib.laboratory.live.session import Answer, Interrupted, LiveSettings, calibrate_live
+from recalib.laboratory.live.session import Interrupted
 from recalib.station import Guarded
 from tests.conftest import few_folds
 from tests.identification.real import anywhere
@@ -56,17 +59,13 @@ def remaining(station, rows, running) -> float:
     return float(np.linalg.norm(gaps[:, :3, 3], axis=1).mean())
 
 
-def test_it_ends_as_soon_as_the_arm_is_as_right_as_was_asked_for(lived):
+def test_it_says_where_the_tool_will_be_and_ends_as_soon_as_the_arm_is_right(lived):
     assert lived.ended.reason.endswith("; 0.3 mm was requested")
     assert lived.ended.rows == len(lived.rows) <= 14 and "stop" not in lived.station.calls
     assert remaining(lived.station, lived.rows, lived.running) < 3e-4
     predicted = lived.running.error(lived.rows)
-    assert (
-        lived.lines[-1] == f"row {len(lived.rows)}: the predicted error is {1e3 * predicted:.3g} mm"
-    )
-
-
-def test_before_the_first_move_it_says_where_the_tool_will_be(lived):
+    last = f"row {len(lived.rows)}: the predicted error is {1e3 * predicted:.3g} mm"
+    assert lived.lines[-1] == last
     ranges = re.findall(r"([xyz]) from (-?\d+) to (-?\d+) mm", lived.lines[0])
     low, high = np.array([(float(a), float(b)) for _, a, b in ranges]).T
     places = 1e3 * np.array([move.tool_after for move in lived.asked])
@@ -212,9 +211,7 @@ def stuck(station, cells):
 PROTECTIVE = "the protective stop of the arm is on"
 STOPPED = {  # by what is said, what a station does
     PROTECTIVE: {"moved": lambda station: raising(StationFailed(PROTECTIVE))},
-    "for 0.3 s the station has not answered when asked to move": {
-        "moved": lambda station: time.sleep(1)
-    },
+    "for 0.3 s the station has not answered when asked to move": {"moved": lambda _: time.sleep(1)},
     "after a move, elbow_joint is 0.05 rad or m from its command": {
         "moved": lambda station: station.shift(0, 0, 0.05, 0, 0, 0)
     },
@@ -249,9 +246,7 @@ STOPPED = {  # by what is said, what a station does
     "out of sight in 10 postures in a row.* try: a smaller --span": {
         "measured": lambda station, cells: cells if measured(station) < 2 else None
     },
-    "the target is out of sight in the first posture; try: start where the instrument sees it": {
-        "measured": lambda station, cells: None
-    },
+    "the target is out of sight in the first posture; try: start": {"measured": lambda *_: None},
     "the station's joints are joint_0, .*; expected: those of the arm": {
         "joints": [f"joint_{number}" for number in range(6)]
     },
@@ -269,7 +264,7 @@ STOPPED = {  # by what is said, what a station does
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },
     "limits of shoulder_pan_joint are the wrong way round": {
-        "limits": (np.full(6, 2.0), np.full(6, -2.0))
+        "limits": np.outer([2, -2], np.ones(6))
     },
     "asked to tell its angles, the station raised OSError: no route": {
         "angles": lambda station, angles: (
@@ -431,8 +426,10 @@ def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs):
     assert station.closed is not None and (station.closed == station.opened) is not hangs
 
 
-LINE = "live tests.station.simulated:{} ur10_robot.urdf --tool tool0 --most 14"
+LINE = "live {} ur10_robot.urdf --tool tool0 --most 14"
 LINE += " --floor none --no-self-collision"  # which is tested where it is
+
+SIMULATED = "tests.station.simulated:Simulated"
 
 
 def typed(monkeypatch, *lines):
@@ -447,7 +444,7 @@ def test_a_skipped_posture_is_not_proposed_again_and_an_end_is_no_error(
     proposed = []
     for lines in (("", "s", "q"), ("s", "q"), ("q",)):
         typed(monkeypatch, *lines)
-        assert main(LINE.format("Simulated").split()) == DONE
+        assert main(LINE.format(SIMULATED).split()) == DONE
         told = capsys.readouterr()
         proposed.append(re.findall(r"^tool from .* to (\(.*\)) mm", told.err, re.MULTILINE))
         assert len(proposed[-1]) == len(lines) and "ended: you ended it" in told.err
@@ -457,7 +454,7 @@ def test_a_skipped_posture_is_not_proposed_again_and_an_end_is_no_error(
     (_, skipped, second), (third, fourth), (fifth,) = proposed
     assert second == third and fourth == fifth and len({skipped, second, fourth}) == 3
     (tmp_path / "measurements.csv").unlink()
-    assert main(LINE.format("Simulated").split()) == REFUSED
+    assert main(LINE.format(SIMULATED).split()) == REFUSED
     assert "measurements_skipped.csv: it has postures that were" in capsys.readouterr().err
 
 
@@ -470,12 +467,12 @@ def test_who_ends_or_suspends_it_stops_the_arm_first(number, tmp_path, monkeypat
     monkeypatch.setattr("sys.stdin.readline", lambda: os.kill(os.getpid(), sent), raising=False)
     stopped = []
     monkeypatch.setattr(Simulated, "stop", lambda station: stopped.append(station))
-    assert main(LINE.format("Simulated").split()) == REFUSED
+    assert main(LINE.format(SIMULATED).split()) == REFUSED
     assert "recalib: interrupted; the station was told to stop" in capsys.readouterr().err
     assert len(stopped) == 1 and signal.getsignal(sent) == before
 
 
 def test_without_a_station_nothing_is_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    assert main(LINE.format("Unheard").split()) == REFUSED
+    assert main(LINE.format("tests.station.simulated:Unheard").split()) == REFUSED
     assert "rows are in" not in capsys.readouterr().err and not list(tmp_path.iterdir())

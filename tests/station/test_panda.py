@@ -71,10 +71,6 @@ def test_each_command_works_and_the_arm_is_right_to_a_fifth_of_a_millimetre(rehe
     assert calibrated < 0.2 < nominal
     said = re.findall(r"\| ([\d.]+) mm \|", PAGE.read_text(encoding="utf-8"))
     assert [nominal, calibrated] == pytest.approx([*map(float, said)], rel=0.3)
-
-
-@pytest.mark.slow
-def test_it_ends_by_itself_with_a_command_for_each_picture(rehearsed):
     rows = read_table(rehearsed / "measurements.csv").cells["picture"]
     assert len(rows) < 60 and all((rehearsed / name).exists() for name in rows)
     used = (rehearsed / "calibration_observed" / "measurements.csv").read_text().count("\n")

@@ -9,9 +9,16 @@ import time
 import numpy as np
 import pytest
 
-from recalib import ProgramStation, StationFailed, load_arm, load_correction
+from recalib import (
+    Answer,
+    LiveSettings,
+    ProgramStation,
+    StationFailed,
+    calibrate_live,
+    load_arm,
+    load_correction,
+)
 from recalib.laboratory.command_line import DONE, main
-from recalib.laboratory.live.session import Answer, LiveSettings, calibrate_live
 from recalib.station import open_station
 from tests.conftest import ROOT, few_folds
 
@@ -82,7 +89,7 @@ def test_an_answer_that_is_none_is_told(program, answer, says):
         program(measure=answer).measure()
 
 
-def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
+def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = PROGRAM.format(answers=json.dumps({"describe": json.dumps(DESCRIBED)}))
     station = ProgramStation([sys.executable, "-c", text])
@@ -91,9 +98,6 @@ def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
             station.angles()
     station.stop()
     station.close()
-
-
-def test_a_program_that_does_not_end_is_ended(monkeypatch):
     monkeypatch.setattr("recalib.station.program.PATIENCE", 0.1)
     text = f"import time; print({json.dumps(DESCRIBED)!r}, flush=True); time.sleep(60)"
     station, began = ProgramStation([sys.executable, "-c", text]), time.monotonic()

@@ -15,7 +15,7 @@ import rerun as rr
 from watched_pictures import ShownPictures
 
 from recalib import StationFailed
-from recalib.station.opening import open_station
+from recalib.station import open_station
 from recalib.vision.views import projected
 from tests.conftest import ROOT
 from tests.logged import logged
@@ -82,9 +82,7 @@ def universal_robot(arm, monkeypatch):
 
     receive = {
         "getActualQ": lambda self: arm.now().tolist(),
-        "getActualQd": lambda self: (
-            (arm.goal - arm.start) / arm.seconds * (arm.part() < 1)
-        ).tolist(),
+        "getActualQd": lambda self: [*(arm.goal - arm.start) / arm.seconds * (arm.part() < 1)],
         "isEmergencyStopped": lambda self: arm.emergency,
         "isProtectiveStopped": lambda self: False,
         "__init__": lambda self, host: None,
@@ -113,21 +111,16 @@ def ros_arm(arm, monkeypatch):
     """Goals are accepted or not; a result has an error code, and comes when the arm stands."""
     kept, times = {}, SimpleNamespace(canceled=False)
 
-    class Result:
-        SUCCESSFUL, PATH_TOLERANCE_VIOLATED = 0, -4
-
-    class Goal:
-        def __init__(self):
-            self.trajectory = SimpleNamespace(joint_names=[], points=[])
+    def goal():
+        return SimpleNamespace(trajectory=SimpleNamespace(joint_names=[], points=[]))
 
     def ended():
+        code, text = 0, ""  # SUCCESSFUL
         if arm.emergency or times.canceled:
             arm.halt()
-            code, text = Result.PATH_TOLERANCE_VIOLATED, "aborted"
+            code, text = -4, "aborted"  # PATH_TOLERANCE_VIOLATED
         elif arm.part() < 1:
             return None
-        else:
-            code, text = Result.SUCCESSFUL, ""
         return SimpleNamespace(result=SimpleNamespace(error_code=code, error_string=text))
 
     class Client:
@@ -146,21 +139,14 @@ def ros_arm(arm, monkeypatch):
             )
             return Future(lambda: handle)
 
-    class JointState:
-        @property
-        def name(self):
-            return JOINTS
+    def joint_state():
+        return SimpleNamespace(name=JOINTS, position=arm.now().tolist())
 
-        @property
-        def position(self):
-            return arm.now().tolist()
-
-    class Image:
-        def __init__(self):
-            self.height, self.width, self.step, self.encoding = 48, 64, 3 * 64 + 4, "rgb8"
-            self.data = bytes([9, 5, 7] * 64 + [0] * 4) * 48
-            sec, nanosec = divmod(time.time_ns(), 10**9)
-            self.header = SimpleNamespace(stamp=SimpleNamespace(sec=sec, nanosec=nanosec))
+    def image():
+        sec, nanosec = divmod(time.time_ns(), 10**9)
+        header = SimpleNamespace(stamp=SimpleNamespace(sec=sec, nanosec=nanosec))
+        layout = {"height": 48, "width": 64, "step": 3 * 64 + 4, "encoding": "rgb8"}
+        return SimpleNamespace(header=header, data=bytes([9, 5, 7] * 64 + [0] * 4) * 48, **layout)
 
     def spin(node):
         for _ in range(500):
@@ -172,22 +158,14 @@ def ros_arm(arm, monkeypatch):
         create_subscription=lambda kind, topic, callback, depth: kept.update({kind: callback}),
         get_clock=lambda: SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=time.time_ns())),
     )
-    follow = type("FollowJointTrajectory", (), {"Goal": Goal, "Result": Result})
-    duration = type(
-        "Duration",
-        (),
-        {
-            "__init__": lambda self, seconds: setattr(self, "seconds", seconds),
-            "to_msg": lambda self: self.seconds,
-        },
-    )
     module(monkeypatch, "rclpy", init=lambda: None, create_node=lambda name: node, spin=spin)
     module(monkeypatch, "rclpy.action", ActionClient=Client)
+    duration = lambda seconds: SimpleNamespace(to_msg=lambda: seconds)  # noqa: E731
     module(monkeypatch, "rclpy.duration", Duration=duration)
     module(monkeypatch, "control_msgs")
-    module(monkeypatch, "control_msgs.action", FollowJointTrajectory=follow)
+    module(monkeypatch, "control_msgs.action", FollowJointTrajectory=SimpleNamespace(Goal=goal))
     module(monkeypatch, "sensor_msgs")
-    module(monkeypatch, "sensor_msgs.msg", JointState=JointState, Image=Image)
+    module(monkeypatch, "sensor_msgs.msg", JointState=joint_state, Image=image)
     module(monkeypatch, "trajectory_msgs")
     module(monkeypatch, "trajectory_msgs.msg", JointTrajectoryPoint=SimpleNamespace)
     monkeypatch.setenv("ARM", "/arm/follow_joint_trajectory")

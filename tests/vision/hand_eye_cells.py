@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -12,7 +11,16 @@ from recalib.vision.detection import Corners
 from recalib.vision.lens_search import find_lens
 from recalib.vision.lenses import Lens
 from recalib.vision.views import optics_of, projected, sighting
-from tests.vision.rendering import BOARD, LENS, frame
+from tests.vision.rendering import (
+    ABOVE,
+    BOARD,
+    FIXED,
+    IN_HAND,
+    LENS,
+    frame,
+    photograph_of,
+    placed,
+)
 
 NOISE = 0.15  # px
 
@@ -44,18 +52,8 @@ class HandEyeCell:
 
     def __post_init__(self):
         self.rng = np.random.default_rng([self.seed, self.in_hand, 47])
-        off = frame(0.2 * self.rng.uniform(-1, 1, 3), 0.05 * self.rng.uniform(-1, 1, 3))
-        middle = frame([0, 0, 0], [*-self.board.size / 2, 0])
-        if self.in_hand:  # the camera looks down, at a board on the table
-            self.camera = frame([0, 0, 0.3], [0.06, 0.02, 0.05]) @ off
-            self.target = frame([np.pi, 0, 0], [0.5, 0, 0.0]) @ off @ middle
-        else:
-            self.camera = frame([0, 0, np.pi / 2], [1.35, 0, 0.75]) @ frame([-2.0, 0, 0], [0] * 3)
-            self.camera = self.camera @ off
-            self.target = frame([0, 0, 0], [0, 0, 0.05]) @ off @ middle
-            if self.four_axes:  # the camera looks down, at a board on the tool
-                self.camera = frame([np.pi, 0, 0], [0.5, 0, 1.2]) @ off
-                self.target = frame([np.pi, 0, 0], [0.05, 0, -0.02]) @ off @ middle
+        where = IN_HAND if self.in_hand else ABOVE if self.four_axes else FIXED
+        self.camera, self.target = placed(where, self.board, self.rng)
 
     def flange(self, count: int) -> np.ndarray:
         """True poses (count, 4, 4) [m] of the flange, in which the whole board is seen."""
@@ -123,24 +121,5 @@ class HandEyeCell:
         return Sights(self.said(flange), board, self.in_hand, optics, known)
 
     def draw(self, pose: np.ndarray) -> np.ndarray:
-        """A picture (height, width) of the board at a pose in the camera, as drawn by OpenCV."""
-        pixels = 12 * self.board.modules.shape[0], 12 * self.board.modules.shape[1]
-        texture = cv2.resize(
-            np.where(self.board.modules, 20, 235).astype(np.uint8),
-            pixels[::-1],
-            interpolation=cv2.INTER_NEAREST,
-        )
-        x, y = (np.arange(2 * side) / 2 - 0.25 for side in self.lens.size)
-        grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 1, 2)
-        rays = cv2.undistortPoints(grid, self.lens.matrix, self.lens.distortion)
-        plane = np.linalg.inv(pose[:3, [0, 1, 3]])
-        places = cv2.perspectiveTransform(rays, plane).reshape(len(y), len(x), 2)
-        lookup = places * (texture.shape[::-1] / self.board.size) - 0.5
-        fine = cv2.remap(
-            texture, lookup.astype(np.float32), None, cv2.INTER_LINEAR, borderValue=200
-        )
-        picture = cv2.resize(fine, self.lens.size, interpolation=cv2.INTER_AREA).astype(float)
-        picture = cv2.GaussianBlur(picture, (0, 0), 0.7)
-        return np.clip(picture + 2 * self.rng.standard_normal(picture.shape), 0, 255).astype(
-            "uint8"
-        )
+        """A picture (height, width) of the board at a pose in the camera."""
+        return photograph_of(self.board, self.lens, pose, self.rng)

@@ -13,14 +13,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, RecalibError, load_arm
+from recalib import InvalidFile, RecalibError, calibrate_arm, calibrate_pictures, load_arm
 from recalib.identification import WAYS
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures import observe as observing
 from recalib.laboratory.pictures.observe import observe
 from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.summary import verdict
 from recalib.vision.detection import Corners, find_corners
@@ -127,11 +125,7 @@ def test_pixels_are_read_and_weighed(observed, calibrated):
         ("corners.csv", ("\n003.png,", "\n99,"), "003.png has 0 corners"),
         ("corners.csv", ("\n003.png,7,", "\n3,70,"), "a corner is not among the board's 24"),
         ("corners.csv", ("\n003.png,7,", "\n003.png,6,"), "003.png has a corner twice"),
-        (
-            "corners.csv",
-            ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"),
-            "expected: up to 100000 px",
-        ),
+        ("corners.csv", ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"), "expected: up to 100000 p"),
         ("measurements.csv", ("picture,", "a picture,"), "unknown column 'a picture'"),
     ],
 )

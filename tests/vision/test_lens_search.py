@@ -1,17 +1,16 @@
 """The lens by pictures: whatever it is, it is found; and it is blamed if it is another."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import load_arm
+from recalib import calibrate_pictures, load_arm
 from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.pictures.sessions import calibrate_pictures
-from recalib.laboratory.report.doubts import doubts
+from recalib.laboratory.pictures.sessions import read_folders
 from recalib.laboratory.report.summary import verdict
+from recalib.laboratory.tables.description import Description
 from recalib.vision import lens_search
 from recalib.vision.boards import printable
 from recalib.vision.detection import Corners, are_on_a_line, find_corners
@@ -109,19 +108,17 @@ def test_a_lens_that_is_not_mild_is_found_and_the_arm_is_not_blamed(wide):
     assert result.validation.mean_error("at random", result.validation.chosen) < 2e-4
     # a folder of an earlier search, which took another lens, is searched again
     (folder / "lens.yaml").write_text(LENS.as_ros())
-    again, first = Cameras.read([folder], result.arm), result.data.cameras
-    assert np.array_equal(again.lenses["camera"].matrix, first.lenses["camera"].matrix)
+    again = read_folders([folder], result.arm, Description())
+    first, optics = result.data, np.zeros(len(again.observations.optics.kinds))
+    assert again.lens_files(optics) == first.lens_files(optics)
 
 
 def test_a_given_lens_that_leaves_much_more_than_another_is_doubted_before_the_arm(wide):
     (cell, observed), arm = wide, load_arm("panda.urdf", "panda_link8")
     near = replace(cell.lens, distortion=cell.lens.distortion * [1, 1, 1, 1, 0.9])
-    cameras = Cameras.read([observed(near)], arm)
-    (doubt,) = cameras.doubts
+    (doubt,) = Cameras.read([observed(near)], arm).doubts
     assert doubt.startswith("the given lens has a reprojection error of")
     assert not Cameras.read([observed(cell.lens)], arm).doubts
-    result = SimpleNamespace(mistake=None, data=SimpleNamespace(cameras=cameras))
-    assert next(doubts(result)) == f"Careful: {doubt}."
 
 
 def test_a_picture_out_of_focus_shows_the_markers_that_others_lead_to():

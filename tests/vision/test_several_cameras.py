@@ -10,10 +10,9 @@ from shutil import copytree
 import numpy as np
 import pytest
 
-from recalib import RecalibError
+from recalib import RecalibError, calibrate_pictures
 from recalib.identification.model import displacements
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.summary import summary, verdict
 from recalib.vision.lenses import Lens, read_lens
@@ -78,9 +77,8 @@ def in_one_fit(tmp_path_factory):
     @cache
     def make(setup: str):
         made, (sessions, *_) = tmp_path_factory.mktemp("cell"), SETUPS[setup]
-        folders = [
-            write_session(made / str(number), *session) for number, session in enumerate(sessions)
-        ]
+        numbered = enumerate(sessions)
+        folders = [write_session(made / str(number), *session) for number, session in numbered]
         return calibrated(*folders), folders
 
     return make
@@ -153,10 +151,6 @@ def test_each_camera_is_written_by_its_name(in_one_fit, tmp_path, capsys):
     assert [*parameters["base_in_instrument"]] == ["camera left", "camera right"]
     with (made / "frames.csv").open() as stream:
         assert [row["frame"] for row in csv.DictReader(stream)] == [*SETUPS["two fixed"][1]]
-
-
-def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
-    """Whichever camera saw it."""
     result, _ = in_one_fit("two fixed")
     rows, frames = result.data.observations[result.counted], result.calibration.frames
     nominal = (result.arm.forward(rows.joints) @ frames.targets[0])[:, :3, 3]
@@ -179,8 +173,9 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
         calibration = one.geometry
         optics = calibration.estimate.parameters[calibration.model.optics_columns]
         assert len(optics) == 2 * 2 + 8
-        (found,) = one.data.cameras.corrected_lenses(optics).values()
-        matrices.append(found.matrix)
+        (content,) = one.data.lens_files(optics).values()
+        (path := tmp_path / "found.yaml").write_bytes(content)
+        matrices.append(read_lens(path).matrix)
     assert np.allclose(matrices[0], LENS.matrix, atol=1)
     assert np.array_equal(*matrices)
 
@@ -188,13 +183,7 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
 @pytest.mark.parametrize(
     ("cell", "slip", "size", "turn", "said"),
     [
-        (
-            Cell(SEED, True),
-            ("eye", SHIFT),
-            1.0,
-            0.0,
-            "the camera seems to have slipped on the tool",
-        ),
+        (Cell(SEED, True), ("eye", SHIFT), 1.0, 0.0, "the camera seems to have slipped on the too"),
         (Cell(SEED), ("sheet", TURN), None, 0.2, "the board seems to have slipped on the tool"),
         (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "camera or base seem to have moved"),
         (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "board or base seem to have moved"),
@@ -251,10 +240,7 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
         ((on_the_hand(), "right"), "its board 'board' differs from that in "),
         ((changed(1, board=SMALL), "right"), "its board 'board' differs from that in "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
-        (
-            (changed(1, sheet=FAR), "right"),
-            "the board by camera right is 825 mm from its place by the o",
-        ),
+        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from its place by"),
         ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
     ],
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],

@@ -2,13 +2,14 @@
 
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from replication.running import readable, study_of
 from replication.training import Place, places
-from tests.conftest import ROOT
+from tests.conftest import ROOT, copy_project
 from tests.project import Project
 
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
@@ -34,9 +35,6 @@ def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
     assert (mine.name, mine.robot, mine.scenario) == ("my_arm", "ur5", "fall")
     assert mine.expected is None, "bands belong to the study that has them"
     assert [*places(mine)] == [Place("ur5", "fall")]
-
-
-def test_the_page_names_every_study_to_begin_with():
     row = next(line for line in PAGE.splitlines() if line.startswith("| `like` |"))
     studies = {path.stem for path in (ROOT / "workflow" / "studies").glob("*.yaml")}
     assert len(studies) > 4 and studies <= {*re.findall(r"\w+", row)}
@@ -85,3 +83,16 @@ def test_a_study_is_refused_with_its_mistakes_alone(tmp_path):
     ran = Project(tmp_path, "--configfile", "my_leg.yaml").run("--dry-run")
     *_, last = ran.badly().said.splitlines()
     assert last.startswith("my_leg.yaml:2:1: robot is 'kuka'; expected: ur10")
+
+
+@pytest.mark.slow
+def test_the_rules_are_planned_from_another_workflow(tmp_path):
+    page = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
+    (snakefile,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "Snakefile").write_text(snakefile)
+    (tmp_path / "recalib").mkdir()
+    copy_project(tmp_path / "recalib")
+    command = [sys.executable, "-m", "snakemake", "--dry-run", "--quiet", "host"]
+    planned = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert planned.returncode == 0, planned.stderr
+    assert "recalibration_findings" in planned.stdout + planned.stderr

@@ -13,13 +13,9 @@ from recalib.laboratory.options import parse
 from tests.conftest import ROOT, copy_project
 
 TEMPLATES = ROOT / "workflow" / "templates"
-PAGES = [  # as they are written: those with results as templates
-    template if (template := TEMPLATES / f"{page.name}.j2").exists() else page
-    for page in (
-        ROOT / "README.md",
-        ROOT / "CONTRIBUTING.md",
-        *sorted((ROOT / "docs").glob("*.md")),
-    )
+WRITTEN = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [  # those with results as templates
+    template if (template := TEMPLATES / f"{page.name}.j2").exists() else page for page in WRITTEN
 ]
 BLOCK = re.compile(r"^ *```(\w*)\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
 CONTINUED = re.compile(r"\\\n *")  # on the next line

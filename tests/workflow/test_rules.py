@@ -1,9 +1,16 @@
-"""Every rule hands over what its function asks for."""
+"""What rules hand over, what a cluster must know of them, and what Snakemake's own checks find."""
 
+import re
+import subprocess
+import sys
 from inspect import Parameter, signature
 from pkgutil import resolve_name
 
+import pytest
+import yaml
+
 from replication.config import Study
+from tests.conftest import ROOT
 
 TRACKED = {"function", "study", "code", "digits"}  # for Snakemake, or for the script
 
@@ -19,3 +26,39 @@ def test_every_rule_fits_its_function(rules, study):
         assert needed - {"study"} <= {*rule.input.keys(), *rule.output.keys(), *params}, rule
         assert params - TRACKED <= {*takes}, rule
         assert Study.model_validate_json(rule.params.study) == study
+
+
+@pytest.fixture
+def leaving(rules) -> dict:
+    """By name, the rules with jobs that do not stay where Snakemake runs."""
+    at_home = rules[0].workflow._localrules
+    working = [its for its in rules if its.script or its.shellcmd]
+    return {its.name: its for its in working if its.name not in at_home}
+
+
+def test_a_rule_says_what_its_jobs_may_take_or_stays_at_home(leaving, rules):
+    asking = {its.name for its in rules if "runtime" in its.resources}
+    assert {*leaving} == asking and len(asking) > 10
+    assert all("mem_mb" in its.resources for its in leaving.values())
+
+
+def test_what_travels_together_may_leave_home(leaving):
+    path = ROOT / "profiles" / "slurm" / "config.yaml"
+    profile = yaml.safe_load(path.read_text(encoding="utf-8"))
+    assert {*profile["groups"]} <= {*leaving}
+    named = {its._group for its in leaving.values() if its._group}  # `group`: on a cluster alone
+    assert {*profile["groups"].values()} | named == {*profile["group-components"]}
+
+
+MEANT = {
+    "Specify a conda environment": "requirements.lock is the environment of all rules",
+    "Mixed rules and functions": "what finds the inputs of one rule stands beside it",
+}
+
+
+def test_the_workflow_is_clean():
+    command = [sys.executable, "-m", "snakemake", "--lint"]
+    linted = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    titles = re.findall(r"^    \* (.*?):$", linted.stdout + linted.stderr, re.MULTILINE)
+    assert titles
+    assert [title for title in titles if not title.startswith(tuple(MEANT))] == []

@@ -13,10 +13,9 @@ import numpy as np
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.frames import HELD
 from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Observations
-from recalib.identification.unseen import Unseen, anywhere
+from recalib.identification.unseen import Unseen, anywhere, geometry_of
 from recalib.nominal.newton import solve_groups
 
 TOLD = 1.0  # information over that of the prior from which on a parameter is told apart
@@ -80,12 +79,9 @@ def _last(order: np.ndarray, some: list[int]) -> np.ndarray:
 
 def _order(model: ErrorModel) -> np.ndarray:
     """Numbers of the parameters of geometry that are not held: frames, offsets, links."""
-    numbers = np.arange(len(model.deviations))
-    offsets = numbers[model.offset_columns]
-    geometry = numbers[: model.optics_columns.start]
-    order = np.concatenate([geometry[model.free[geometry]], offsets])
-    order = np.concatenate([order, np.setdiff1d(geometry, order)])
-    return order[model.deviations[order] > HELD]
+    numbers = geometry_of(model)
+    offsets = numbers >= model.offset_columns.start
+    return numbers[np.lexsort([~offsets, ~model.free[numbers]])]
 
 
 def _root(calibration: Calibration, observations: Observations, weights: np.ndarray) -> np.ndarray:
@@ -94,8 +90,8 @@ def _root(calibration: Calibration, observations: Observations, weights: np.ndar
     R is of the slopes themselves: in their squares, what is next to nothing is lost to rounding.
     """
     model, estimate = calibration.model, calibration.estimate
-    parameters, terms = estimate.parameters / model.deviations, model.terms(observations.joints)
-    linear = Linearisation(model, parameters, observations, terms)
+    parameters = estimate.parameters / model.deviations
+    linear = Linearisation(model, parameters, observations)
     root = np.empty((0, len(parameters)))
     for jacobians, noise in zip(linear.jacobians, estimate.noise, strict=True):
         rows = jacobians * (np.sqrt(weights) / noise)[:, None, None]

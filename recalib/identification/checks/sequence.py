@@ -68,7 +68,11 @@ def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
     found = _faults(geometry, observations, 1) or _faults(geometry, observations, 2)
     if len(found) < 2 or found[0].kind != LAG:
         return found
-    punctual = _without(found[0], observations)
+    # at the joint coordinates of the moments at which poses were measured
+    joints, series = observations.joints.copy(), observations.series
+    rows = series == series[observations.targets == found[0].sight][0]
+    joints[rows] -= found[0].size * _speeds(joints[rows], _times(observations)[rows])
+    punctual = replace(observations, joints=joints)
     again = identify(geometry.model, punctual, geometry.estimate, geometry.estimate.weights)
     others = _faults(replace(geometry, estimate=again), punctual, 1)
     its = LAG, found[0].sight
@@ -126,22 +130,13 @@ def slopes_of(geometry: Calibration, observations: Observations, power: int) -> 
     model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
     parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
     parameters[: len(estimate.parameters)] = estimate.parameters
-    terms = model.terms(observations.joints)
-    linear = Linearisation(model, parameters / model.deviations, observations, terms)
+    linear = Linearisation(model, parameters / model.deviations, observations)
     residuals = np.concatenate([*linear.residuals], axis=1) / np.repeat(estimate.noise, 3)
     lengths = np.linalg.norm(residuals, axis=1, keepdims=True)
     weights = np.sqrt(FAR / np.maximum(lengths, FAR)) ** power
     residuals, weights = residuals * weights, weights / np.repeat(estimate.noise, 3)
     arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
     return Slopes(residuals, arm, weights, model)
-
-
-def _without(lag: Fault, observations: Observations) -> Observations:
-    """The same at the joint coordinates of the moments at which poses were measured."""
-    joints, series = observations.joints.copy(), observations.series
-    rows = series == series[observations.targets == lag.sight][0]
-    joints[rows] -= lag.size * _speeds(joints[rows], _times(observations)[rows])
-    return replace(observations, joints=joints)
 
 
 class Candidate(NamedTuple):
@@ -171,7 +166,9 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[C
     grown = np.zeros((len(poses), 6, 1))
     grown[:, :3, 0] = poses[:, :3, 3] - geometry.frames.bases[instruments, :3, 3]
     grown = observations.whitened(grown[:, known])
-    slipped = observations.whitened(_slipped(poses)[:, known, known])
+    slipped = np.zeros((len(poses), 6, 6))  # along the target's own axes
+    slipped[:, :3, :3] = slipped[:, 3:, 3:] = poses[:, :3, :3]
+    slipped = observations.whitened(slipped[:, known, known])
     passed = np.zeros(len(observations))
     for number in np.unique(observations.series):
         rows = np.flatnonzero(observations.series == number)
@@ -277,11 +274,4 @@ def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:
         places = poses[rows, :3, 3]
         levers = (places - places.mean(axis=0))[:, None]
         columns[rows, :3, 3:] = np.cross(np.eye(3), levers).swapaxes(1, 2)
-    return columns
-
-
-def _slipped(poses: np.ndarray) -> np.ndarray:
-    """What moves of the target by 1 m and 1 rad, along its own axes, do to poses (n, 6, 6)."""
-    columns = np.zeros((len(poses), 6, 6))
-    columns[:, :3, :3] = columns[:, 3:, 3:] = poses[:, :3, :3]
     return columns

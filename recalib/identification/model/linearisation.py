@@ -33,12 +33,20 @@ def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
 
 
+def displaced(pose: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """A pose (4, 4) [m] after a displacement (6,) [m, rad] along and about its frame's axes."""
+    moved = pose.copy()
+    moved[:3, 3] += step[:3]
+    moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
+    return moved
+
+
 class Linearisation:
     """Residuals and their slopes by the parameters over their deviations.
 
     Args:
         parameters: (P,) over their deviations, where to linearise.
-        terms: (n, term, joints) of the observations, which depend on no parameter.
+        terms: (n, term, joints) of the observations, for speed: they depend on no parameter.
 
     Attributes:
         residuals: (kind, n, 3) m, rad; `move` keeps them up to date.
@@ -51,7 +59,7 @@ class Linearisation:
         model: ErrorModel,
         parameters: np.ndarray,
         observations: Observations,
-        terms: np.ndarray,
+        terms: np.ndarray | None = None,
     ):
         self._origin = parameters
         self.residuals = np.empty((observations.kinds, len(observations), 3))
@@ -60,7 +68,8 @@ class Linearisation:
         for first in range(0, len(observations), BLOCK):
             block = slice(first, first + BLOCK)
             its = observations[block]
-            poses, jacobians = model.linearise(parameters, its.joints, terms[block], its.targets)
+            own = None if terms is None else terms[block]
+            poses, jacobians = model.linearise(parameters, its.joints, its.targets, own)
             if its.measured is None:
                 # where the centre goes, the residual goes: the other way than with the prediction
                 by_centre = jacobians[:, :3, model.socket_columns].reshape(len(its), 3, -1, 3)

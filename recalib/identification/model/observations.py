@@ -59,6 +59,11 @@ class Observations:
         by_row = vars(self) | {"distances": None}
         return replace(self, **{name: its[rows] for name, its in by_row.items() if its is not None})
 
+    def with_noise(self, covariance: np.ndarray) -> "Observations":
+        """The same by cameras, where displacements have further noise of a covariance (6, 6)."""
+        assert self.optics is not None
+        return replace(self, optics=self.optics.with_noise(covariance))
+
     def whitened(self, columns: np.ndarray) -> np.ndarray:
         """Displacements (n, 6, ...) of poses, weighted by their optics if there are any."""
         if self.optics is None:

@@ -60,9 +60,9 @@ class Optics:
         return replace(self, whitening=_whitening(self.spread + covariance))
 
     def __getitem__(self, rows: np.ndarray | slice) -> "Optics":
-        by_row = vars(self) | {"kinds": None}
-        some = {name: its[rows] for name, its in by_row.items() if its is not None}
-        return Optics(**some, kinds=self.kinds)
+        return replace(
+            self, **{name: its[rows] for name, its in vars(self).items() if name != "kinds"}
+        )
 
     @property
     def length(self) -> float:

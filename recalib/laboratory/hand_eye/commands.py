@@ -11,8 +11,8 @@ from recalib.laboratory.hand_eye.proposing import propose_poses
 from recalib.laboratory.live.allowed import Box
 from recalib.laboratory.options import DONE, NO_BETTER
 from recalib.laboratory.pictures.observed import Observed
-from recalib.laboratory.report.folder import pose_rows
 from recalib.laboratory.tables.description import within
+from recalib.laboratory.tables.measurements import pose_rows
 from recalib.laboratory.tables.table import table_text
 from recalib.spelling import counted
 

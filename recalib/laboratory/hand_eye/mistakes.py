@@ -15,8 +15,7 @@ import numpy as np
 
 from recalib.errors import RecalibError
 from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
-from recalib.laboratory.hand_eye.conventions import other_readings
-from recalib.laboratory.hand_eye.pose_table import PoseTable
+from recalib.laboratory.hand_eye.pose_table import PoseTable, other_readings
 from recalib.laboratory.plausibility.mistakes import UNITS
 from recalib.spelling import counted
 
@@ -159,5 +158,5 @@ def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, n
     """Poses as they were read, without words, and as rotations could be read otherwise."""
     yield "", table.poses
     for words, turns in other_readings(table.turns):
-        other = replace(table, rotations=turns.as_matrix())
-        yield f"the {name}'s rotations are {words} ({option})", other.poses
+        poses = replace(table, rotations=turns).poses
+        yield f"the {name}'s rotations are {words} ({option})", poses

@@ -13,11 +13,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
-from recalib.files.toml import read_toml
+from recalib.files.archives import refused
+from recalib.files.storage import read_toml
 from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, information
 from recalib.identification.model.linearisation import LEVER
+from recalib.laboratory.hand_eye.calibrating import HAND_EYE, POSES
 from recalib.laboratory.hand_eye.pose_table import read_poses
-from recalib.laboratory.hand_eye.results import HAND_EYE, POSES
 from recalib.laboratory.live.allowed import Box
 from recalib.laboratory.pictures.observed import IN_HAND, LENS, SETUP
 from recalib.laboratory.propose import NoUsefulPosture
@@ -50,11 +51,12 @@ def propose_poses(
         raise InvalidFile(folder, "it has no hand-eye calibration by pictures")
     values, setup = read_toml(home / HAND_EYE), read_toml(home / SETUP)
     board, lens = board_in(setup, home / SETUP), read_lens(home / LENS)
-    camera, target = (np.array(values[name]["matrix"]) for name in ("camera", "board"))
-    flange = read_poses(home / POSES).poses
-    in_hand, robot = setup["camera"] == IN_HAND, values["robot"]
-    accuracy = np.array([robot["millimetres"] / 1e3, np.radians(robot["degrees"])])
-    found = HandEye.at(Sights(flange, flange, in_hand), camera, target)
+    flange, in_hand = read_poses(home / POSES).poses, setup.get("camera") == IN_HAND
+    with refused(home / HAND_EYE, "recalib calibrate --poses"):
+        camera, target = (np.array(values[name]["matrix"]) for name in ("camera", "board"))
+        robot = values["robot"]
+        accuracy = np.array([robot["millimetres"] / 1e3, np.radians(robot["degrees"])])
+        found = HandEye.at(Sights(flange, flange, in_hand), camera, target)
 
     def told(flange: np.ndarray) -> np.ndarray:
         """The information (n, 12, 12) of pictures from poses of the flange."""

@@ -62,9 +62,7 @@ class AllowedPostures:
         home: (joints,) rad, m where the arm stood at first.
         limits: lower and upper (joints,) rad, m that the station allows; those of the URDF hold,
             too, and the outermost part of each joint's range is left out.
-        span: rad that each joint may move either way from home; half a metre for each rad where it
-            slides.
-        box: in which the tool is in postures and on paths; default: anywhere.
+        span, box: see `LiveSettings`.
         clearance: what must not touch in postures and on paths; default: anything may.
 
     Attributes:

@@ -24,8 +24,7 @@ class Clearance:
         arm: the nominal one.
         home: (joints,) rad, m where the arm stands without touching itself.
         shapes: of its links; see `load_shapes`.
-        floor: m, its height in the arm's base; None without one.
-        self_collision: whether links keep apart.
+        floor, self_collision: see `LiveSettings`.
         tool_radius: m about the tool link's origin that what the tool carries may take.
 
     Attributes:

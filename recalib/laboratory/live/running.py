@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.distance import cdist
 
-from recalib.identification.calibration import Calibration, most_probable
+from recalib.identification.calibration import Calibration, calibrations, choose
 from recalib.identification.checks.diagnostics import FEWEST
-from recalib.identification.checks.repeatability import returning
+from recalib.identification.checks.scales import returning
 from recalib.identification.design import most_informative, surprises
 from recalib.identification.initial_estimate import SPARE, fewest
 from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
@@ -81,15 +81,15 @@ class RunningCalibration:
                 model = ErrorModel(self._arm, OFFSETS, frames)
                 self._returning[count] = returning(model, observations[RETURNING])
                 observations = self._weighed(observations, count)
-            self._calibrations[count] = most_probable(self._arm, MODELS, observations, frames)
+            every = calibrations(self._arm, MODELS, observations, frames)
+            self._calibrations[count] = every[choose(every)]
         return self._calibrations[count]
 
     def _weighed(self, observations: Observations, count: int) -> Observations:
         """Rows by cameras, weighed as by the calibration of so many rows."""
         if observations.optics is None:
             return observations
-        optics = observations.optics.with_noise(self._returning[count])
-        return replace(observations, optics=optics)
+        return observations.with_noise(self._returning[count])
 
     def error(self, observations: Observations) -> float:
         """The predicted mean position error [m] in allowed postures.

@@ -4,18 +4,12 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-import cv2
 import numpy as np
 
 from recalib.errors import RecalibError
-from recalib.laboratory.tables.columns import (
-    ERRORS,
-    NOMINAL,
-    PICTURES,
-    POSITIONS,
-    ROTATION_VECTORS,
-    ROTATIONS,
-)
+from recalib.laboratory.report.templates import render
+from recalib.laboratory.tables.columns import ERRORS, NOMINAL, PICTURES, POSITIONS, ROTATIONS
+from recalib.laboratory.tables.measurements import pose_rows
 from recalib.laboratory.tables.table import Table, table_text
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
@@ -117,27 +111,7 @@ class Observed:
 
     def summary(self) -> str:
         """A page of text."""
-        lens, used = self.lens, self.used
-        (fx, _, cx), (_, fy, cy) = lens.matrix[:2]
-        source = "from these pictures"
-        if self.given is not None:
-            source = f"as given (one {source} has an error of {self.own.error:.3f} px)"
-        lines = [
-            f"{len(used)} of {len(self.pictures)} pictures are used;"
-            f" reprojection error {self.error:.3f} px along an axis",
-            *([f"Careful: {self.doubt}."] if self.doubt else []),
-            f"lens {source}: {lens.model}, focal lengths {fx:.1f} and {fy:.1f} px, principal point"
-            f" ({cx:.1f}, {cy:.1f}) px, distortion"
-            f" {', '.join(f'{number:.4f}' for number in lens.distortion)}",
-            *(
-                f"{picture.name} (row {picture.row}) is refused: {picture.reason}"
-                for picture in self.pictures
-                if picture.reason
-            ),
-        ]
-        if self.unlisted:
-            lines.append(f"not in {self.table.path.name}: {', '.join(self.unlisted)}")
-        return "\n".join([*lines, ""])
+        return render("observed.txt.j2", result=self, used=self.used)
 
     @property
     def setup(self) -> str:
@@ -172,14 +146,11 @@ class Observed:
         measured = {PICTURE, *(name for kind in vectors for name in kind.headings)}
         joints = [name for name in table.cells if name not in measured]
         units = [f"{name} [{table.units[name]}]" if table.units[name] else name for name in joints]
-        headings = [PICTURE, *units, *POSITIONS.written, *ROTATION_VECTORS.written]
-        for picture in self.used:
-            assert picture.pose is not None
-            pose = np.linalg.inv(picture.pose) if self.in_hand else picture.pose
-            turn = np.degrees(cv2.Rodrigues(pose[:3, :3])[0].ravel())
-            numbers = [f"{number:.6f}" for number in (*1e3 * pose[:3, 3], *turn)]
+        poses = np.array([picture.pose for picture in self.used])
+        rows = pose_rows(np.linalg.inv(poses) if self.in_hand else poses)
+        for picture, pose in zip(self.used, rows, strict=True):
             cells = [table.cells[name][picture.row - 1] for name in joints]
-            yield dict(zip(headings, [picture.name, *cells, *numbers], strict=True))
+            yield {PICTURE: picture.name} | dict(zip(units, cells, strict=True)) | pose
 
 
 def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str | None:

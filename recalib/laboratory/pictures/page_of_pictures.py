@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import rc_context
 
 from recalib.laboratory.pictures.observed import WIDE, Observed, Picture
-from recalib.laboratory.report.drawings import COLOURS, STYLE, figure_of, svg_of
+from recalib.laboratory.report.page import COLOURS, STYLE, figure_of, svg_of
 from recalib.laboratory.report.templates import render
 
 DOT, COLOUR = 2, (178, 114, 0)  # px, and blue as OpenCV has it

@@ -9,7 +9,7 @@ import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.quantities import NUMBER, Quantity
-from recalib.files.toml import read_toml
+from recalib.files.storage import read_toml
 from recalib.laboratory.pictures.observed import (
     CAMERAS,
     CORNERS,

@@ -5,6 +5,7 @@ Each folder has pictures of one board by one camera. Folders may share a camera,
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 
@@ -34,7 +35,7 @@ class Cell:
         sessions: each is a sight.
         lenses: by camera, its lens as given or by the pictures of all its sessions: that for which
             the optics are zero.
-        doubts: see `recalib.laboratory.data_set.Cameras`.
+        doubts: about lenses, in sentences without their full stops.
     """
 
     sessions: Sequence[Session]
@@ -60,57 +61,35 @@ class Cell:
             doubts += [doubt] if doubt else []
         return cls(sessions, lenses, doubts)
 
-    @property
-    def cameras(self) -> list[str]:
-        """The name of each session's camera, in words."""
-        return _in_words("camera", [session.camera for session in self.sessions])
+    @cached_property
+    def optics(self) -> tuple[np.ndarray, list[np.ndarray]]:
+        """The kinds (o,) of all optics, and the numbers of those of each session.
 
-    @property
-    def boards(self) -> list[str]:
-        """The name of each session's board, in words."""
-        return _in_words("board", [session.board_name for session in self.sessions])
-
-    @property
-    def kinds(self) -> np.ndarray:
-        """The kinds (o,) of all optics: those of each board, then those of each fitted lens."""
-        boards = [np.arange(len(BOARD))] * len({*self.boards})
-        return np.concatenate([*boards, *self._fitted.values()])
-
-    @property
-    def columns(self) -> list[np.ndarray]:
-        """The numbers of the optics of each session."""
-        boards, lenses = [*dict.fromkeys(self.boards)], {}
-        start = len(BOARD) * len(boards)
-        for camera, kinds in self._fitted.items():
-            lenses[camera] = start + np.arange(len(kinds))
-            start += len(kinds)
-        return [
-            np.concatenate(
-                [
-                    len(BOARD) * boards.index(board) + np.arange(len(BOARD)),
-                    lenses.get(session.camera, np.zeros(0, int)),
-                ]
-            )
-            for session, board in zip(self.sessions, self.boards, strict=True)
+        Those of each board come first, then those of each lens that is estimated.
+        """
+        parts = {("board", one.board_name): np.arange(len(BOARD)) for one in self.sessions}
+        fitted = [one.camera for one in self.sessions if one.fitted]
+        parts |= {("camera", name): optics_kinds(self.lenses[name]) for name in fitted}
+        kinds = np.concatenate([*parts.values()])
+        places = np.split(np.arange(len(kinds)), np.cumsum([*map(len, parts.values())])[:-1])
+        numbers = dict(zip(parts, places, strict=True))
+        own = [
+            [("board", one.board_name), *[("camera", one.camera)] * one.fitted]
+            for one in self.sessions
         ]
-
-    @property
-    def _fitted(self) -> dict[str, np.ndarray]:
-        """By camera, the kinds of optics of its lens; of those estimated from pictures."""
-        cameras = dict.fromkeys(session.camera for session in self.sessions if session.fitted)
-        return {camera: optics_kinds(self.lenses[camera]) for camera in cameras}
+        return kinds, [np.concatenate([numbers[name] for name in names]) for names in own]
 
     def corrected_lenses(self, optics: np.ndarray) -> dict[str, Lens]:
         """By camera, its lens with the corrections (o,) of a calibration."""
         lenses = dict(self.lenses)
-        for session, own in zip(self.sessions, self.columns, strict=True):
+        for session, own in zip(self.sessions, self.optics[1], strict=True):
             if session.fitted:
                 lens = self.lenses[session.camera]
                 lenses[session.camera] = moved_lens(lens, optics[own[len(BOARD) :]]) or lens
         return lenses
 
     def lens_files(self, optics: np.ndarray) -> dict[str, bytes]:
-        """See `recalib.laboratory.data_set.Cameras`."""
+        """Files of the lenses with corrections (o,), by their names."""
         lenses = self.corrected_lenses(optics)
         return {
             LENS if len(lenses) == 1 else f"lens_{camera}.yaml": lens.as_ros().encode()
@@ -144,19 +123,18 @@ def calibrate_pictures(
 def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataSet:
     """What the pixels in folders say of an arm. Raises InvalidFile, as `Cell.read`."""
     cell, poses, parts = Cell.read(folders, arm), [], []
-    kinds, tables = cell.kinds, [session.rows for session in cell.sessions]
-    for session, own in zip(cell.sessions, cell.columns, strict=True):
-        board, lens = session.board, cell.lenses[session.camera]
-        kind = session.fitted, session.in_hand
-        found, part = optics_of(
-            lens, [sighting(board, lens, view, *kind) for view in session.views]
-        )
+    (kinds, numbers), tables = cell.optics, [session.rows for session in cell.sessions]
+    for session, own in zip(cell.sessions, numbers, strict=True):
+        lens, kind = cell.lenses[session.camera], (session.fitted, session.in_hand)
+        views = [sighting(session.board, lens, view, *kind) for view in session.views]
+        found, part = optics_of(lens, views)
         poses.append(found)
         parts.append(_placed(part, own, kinds))
-    pairs = zip(cell.cameras, cell.boards, strict=True)
+    cameras = _in_words("camera", [session.camera for session in cell.sessions])
+    boards = _in_words("board", [session.board_name for session in cell.sessions])
     ends = [
-        pair[::-1] if session.in_hand else pair
-        for session, pair in zip(cell.sessions, pairs, strict=True)
+        (board, camera) if session.in_hand else (camera, board)
+        for session, camera, board in zip(cell.sessions, cameras, boards, strict=True)
     ]
     instruments, targets = (tuple(dict.fromkeys(names)) for names in zip(*ends, strict=True))
     spread, slopes, information, gradient, pixels = map(np.concatenate, zip(*parts, strict=True))
@@ -170,16 +148,16 @@ def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataS
         times=np.concatenate(times) if len(times) == len(tables) else None,
         optics=Optics(spread, slopes, information, gradient, pixels, kinds=kinds),
     )
-    sights = [[instruments.index(one), targets.index(other)] for one, other in ends]
     return DataSet(
         observations,
         targets,
         instruments=instruments,
         known=known,
-        sights=np.array(sights),
+        sights=np.array([[instruments.index(one), targets.index(other)] for one, other in ends]),
         tables=tuple(rows.path for rows in tables),
-        boards=tuple(dict.fromkeys(cell.boards)),
-        cameras=cell,
+        boards=tuple(dict.fromkeys(boards)),
+        doubts=cell.doubts,
+        lens_files=cell.lens_files,
     )
 
 

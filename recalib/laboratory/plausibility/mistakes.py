@@ -190,25 +190,21 @@ def _steps_of_rotations() -> Iterator[Step]:
     """Mistakes in measured rotations, in whichever columns they are."""
     inverse = "poses of the instrument in the target's frame; expected: of the target in the"
     yield Step(f"{inverse} instrument's", measured=np.linalg.inv)
-    euler, changes = (
-        Rotation.from_euler,
-        {
-            "rotations of the instrument in the target's frame": Rotation.inv,
-            "a quaternion in the order qw, qx, qy, qz": (
-                lambda turns: Rotation.from_quat(np.roll(turns.as_quat(), -1, axis=1))
-            ),
-            "roll, pitch and yaw about moving axes": lambda turns: euler("XYZ", _angles(turns)),
-            "roll, pitch and yaw in radians labelled deg": (
-                lambda turns: euler("xyz", np.degrees(_angles(turns)))
-            ),
-            "a rotation vector in radians labelled deg": (
-                lambda turns: Rotation.from_rotvec(np.degrees(turns.as_rotvec()))
-            ),
-            "roll, pitch and yaw in reverse order": lambda turns: euler(
-                "xyz", _angles(turns)[:, ::-1]
-            ),
-        },
-    )
+    euler = Rotation.from_euler
+    changes: dict[str, Callable[[Rotation], Rotation]] = {
+        "rotations of the instrument in the target's frame": Rotation.inv,
+        "a quaternion in the order qw, qx, qy, qz": (
+            lambda turns: Rotation.from_quat(np.roll(turns.as_quat(), -1, axis=1))
+        ),
+        "roll, pitch and yaw about moving axes": lambda turns: euler("XYZ", _angles(turns)),
+        "roll, pitch and yaw in radians labelled deg": (
+            lambda turns: euler("xyz", np.degrees(_angles(turns)))
+        ),
+        "a rotation vector in radians labelled deg": (
+            lambda turns: Rotation.from_rotvec(np.degrees(turns.as_rotvec()))
+        ),
+        "roll, pitch and yaw in reverse order": lambda turns: euler("xyz", _angles(turns)[:, ::-1]),
+    }
     for words, change in changes.items():
         yield Step(words, measured=partial(_turned, change))
 

@@ -1,4 +1,4 @@
-"""The files of a calibration, and tables of postures."""
+"""The files of a calibration."""
 
 import json
 from collections.abc import Iterator
@@ -6,27 +6,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
 from recalib.laboratory.correction import NAME, Correction
 from recalib.laboratory.places import Place
 from recalib.laboratory.report.hand_eye import hand_eye
-from recalib.laboratory.report.identified import identified_parameters
 from recalib.laboratory.report.summary import DOING, errors_table, summary, verdict
 from recalib.laboratory.results import Results
-from recalib.laboratory.tables.columns import (
-    FAKE_POSITIONS,
-    FAKE_ROTATIONS,
-    POSITIONS,
-    ROTATION_VECTORS,
-)
-from recalib.laboratory.tables.measurements import joint_headings
 from recalib.laboratory.tables.table import table_text
 from recalib.laboratory.urdf.universal_robots import kinematics_yaml
 from recalib.nominal.arms import arm_of
-from recalib.nominal.kinematics import Arm
 
 URDF, HAND_EYE = "arm.urdf", "hand_eye.toml"
 PROBES, ROUNDING = 10, 1e-9  # random postures at which files are compared, to so much m and rad
@@ -45,39 +35,17 @@ def files_of(result: Results) -> dict[str, bytes]:
     if result.places:
         files["frames.csv"] = table_text(map(_frame, result.places, [result] * len(result.places)))
     files["rows.csv"] = table_text(_rows(result))
-    if result.data.cameras is not None:
+    if (lens_files := result.data.lens_files) is not None:
         used = result.geometry if result.worthwhile else result.calibration
         optics = used.estimate.parameters[used.model.optics_columns]
         files[HAND_EYE] = hand_eye(result).encode()
-        files |= result.data.cameras.lens_files(optics)
+        files |= lens_files(optics)
     return files
-
-
-def postures_table(arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool = False) -> bytes:
-    """Joint coordinates (n, columns) and poses (n, 4, 4) in the columns that we read.
-
-    Args:
-        fake: the poses are commands, in columns that `read_desired` refuses: they would be
-            corrected twice.
-    """
-    scales = [1e3 if slides else 180 / np.pi for slides in arm.coupling.slides]
-    texts = [[f"{number:.9f}" for number in row] for row in joints * scales]
-    own = (dict(zip(joint_headings(arm), row, strict=True)) for row in texts)
-    return table_text(row | pose for row, pose in zip(own, pose_rows(poses, fake), strict=True))
-
-
-def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]:
-    """The cells of poses (n, 4, 4) [m] by their headings; see `postures_table`."""
-    kinds = (FAKE_POSITIONS, FAKE_ROTATIONS) if fake else (POSITIONS, ROTATION_VECTORS)
-    headings = [heading for kind in kinds for heading in kind.written]
-    turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
-    for row in np.concatenate([1e3 * poses[:, :3, 3], turns], axis=1):
-        yield dict(zip(headings, (f"{number:.9f}" for number in row), strict=True))
 
 
 def _calibration(result: Results) -> dict[str, bytes]:
     geometry, (urdf, tool), data = result.geometry, result.corrected, result.data
-    parameters = identified_parameters(result)
+    parameters = result.identified
     frames = geometry.frames
     bases = dict(zip(data.instruments, frames.bases.tolist(), strict=True))
     offsets = [row for row in parameters if row["name"].startswith("offset of ")]

@@ -1,5 +1,6 @@
 """The summary of a calibration: its errors, what is known of the arm, and doubts about it."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,6 @@ from recalib.identification.validation import (
 )
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.hand_eye import pixel_error
-from recalib.laboratory.report.identified import unidentifiable_directions
 from recalib.laboratory.report.templates import UNITS, render
 from recalib.laboratory.results import Results
 from recalib.spelling import counted
@@ -40,31 +40,6 @@ class ErrorRow(NamedTuple):
     mean: float
     within: float  # lie 95 % of the rows of each part that was held out
     largest: float
-
-
-class JointRange(NamedTuple):
-    """The range in which a joint was measured, and its limits [unit]."""
-
-    name: str
-    unit: str
-    still: bool
-    low: float
-    high: float
-    lower: float
-    upper: float
-
-    @property
-    def beyond(self) -> bool:
-        """Whether it was measured beyond its limits."""
-        return self.low <= self.lower - BEYOND or self.high >= self.upper + BEYOND
-
-
-class CameraErrors(NamedTuple):
-    """Mean errors of corners [px] in held-out pictures, corrected and by the nominal arm."""
-
-    name: str
-    error: float
-    nominal: float
 
 
 def errors_table(result: Results) -> list[ErrorRow]:
@@ -132,16 +107,12 @@ def notes(result: Results) -> list[str]:
 
 def _facts(result: Results) -> dict[str, object]:
     """What the templates name."""
-    data, directions = result.data, unidentifiable_directions(result)
-    lasting = [one for one in result.unidentifiable if one.lasting]
-    anywhere = []
-    for one, words in zip(result.unidentifiable, directions, strict=True):
-        if one.lasting and result.geometry.model.free[one.parameter]:
-            advice = "; try: describe [target]" if len(data.tables) < 2 else ""
-            anywhere.append(words + advice)
-        elif one.lasting and words.startswith("offset"):
+    data, anywhere = result.data, []
+    for one, words in (pair for pair in result.directions if pair[0].lasting):
+        if result.geometry.model.free[one.parameter]:
+            anywhere.append(words + "; try: describe [target]" * (len(data.tables) < 2))
+        elif words.startswith("offset"):
             anywhere.append(words)
-    pairs = zip(result.unidentifiable, directions, strict=True)
     corrected = "arm.urdf" if result.worthwhile else result.urdf.path.name if result.urdf else "arm"
     names = [path.name for path in data.tables]
     return {
@@ -150,33 +121,30 @@ def _facts(result: Results) -> dict[str, object]:
         "most": MOST,
         "files": names[0] if len(names) == 1 else names and f"{len(names)} folders",
         "fit": corrected,
-        "postures": result.validation.postures,
-        "cameras": _cameras(result),
-        "open_here": [words for one, words in pairs if not one.lasting],
+        "cameras": [*_cameras(result)] if data.observations.optics is not None else [],
         "open_anywhere": anywhere,
-        "held": len(lasting),
-        "joints": _joints(result),
-        "counted": counted,
+        "joints": [*_joints(result)],
     }
 
 
-def _cameras(result: Results) -> list[CameraErrors]:
-    if result.data.cameras is None:
-        return []
-    kinds = result.validation.chosen, NOTHING
-    return [
-        CameraErrors(name, *(pixel_error(result, BLOCKWISE, kind, number) for kind in kinds))
-        for number, name in enumerate(result.data.sight_names)
-    ]
+def _cameras(result: Results) -> Iterator[tuple[str, float, float]]:
+    """Mean errors of corners [px] in held-out pictures, corrected and by the nominal arm."""
+    for number, name in enumerate(result.data.sight_names):
+        error, nominal = (
+            pixel_error(result, BLOCKWISE, kind, number)
+            for kind in (result.validation.chosen, NOTHING)
+        )
+        yield name, error, nominal
 
 
-def _joints(result: Results) -> list[JointRange]:
+def _joints(result: Results) -> Iterator[dict[str, object]]:
+    """The range in which each joint was measured, and its limits [unit]."""
     arm, still = result.arm, result.validation.postures.still
     limits = arm.model.lowerPositionLimit, arm.model.upperPositionLimit
     columns = arm.joints, arm.slides, still, result.data.observations.joints.T, *limits
-    ranges = []
     for name, slides, parked, joints, *allowed in zip(*columns, strict=True):
         scale, unit = UNITS[0] if slides else UNITS[1]
-        numbers = (float(scale * number) for number in (joints.min(), joints.max(), *allowed))
-        ranges.append(JointRange(name, unit, bool(parked), *numbers))
-    return ranges
+        low, high, lower, upper = (scale * end for end in (joints.min(), joints.max(), *allowed))
+        beyond = low <= lower - BEYOND or high >= upper + BEYOND
+        ends = {"low": low, "high": high, "lower": lower, "upper": upper}
+        yield {"name": name, "unit": unit, "still": parked, "beyond": beyond, **ends}

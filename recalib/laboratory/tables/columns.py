@@ -44,11 +44,7 @@ def _axes(pattern: str) -> tuple[str, ...]:
 
 
 POSITIONS = Columns(
-    "positions",
-    _axes("{}"),
-    LENGTH,
-    "measured position of the target in the instrument's frame",
-    "mm",
+    "positions", _axes("{}"), LENGTH, "position of the target in the instrument's frame", "mm"
 )
 QUATERNIONS = Columns(
     "quaternions", ("qx", "qy", "qz", "qw"), NUMBER, "its rotation, if measured: as a quaternion,"
@@ -87,11 +83,7 @@ ERRORS = Columns(
     "errors", _axes("{}_error"), LENGTH, "measured minus nominal position, instead of x, y, z", "mm"
 )
 FAKE_POSITIONS = Columns(
-    "fake_positions",
-    _axes("{}_fake"),
-    LENGTH,
-    "commands of recalib correct, which are ignored",
-    "mm",
+    "fake_positions", _axes("{}_fake"), LENGTH, "commands of recalib correct, ignored", "mm"
 )
 FAKE_ROTATIONS = Columns("fake_rotations", _axes("r{}_fake"), ANGLE, "as above", "deg")
 

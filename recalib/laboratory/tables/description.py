@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
-from recalib.files.toml import read_toml
+from recalib.files.storage import read_toml
 from recalib.identification.model.frames import LINK, Frames
 from recalib.spelling import listed
 

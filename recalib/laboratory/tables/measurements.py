@@ -1,6 +1,6 @@
-"""Measurements of an arm, read from a table; docs/own_arm.md describes it."""
+"""Tables of measurements and postures of an arm; docs/own_arm.md describes them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from os import PathLike
@@ -16,6 +16,7 @@ from recalib.laboratory.tables.columns import (
     DESIRED,
     ERRORS,
     FAKE_POSITIONS,
+    FAKE_ROTATIONS,
     MEASURED,
     NOMINAL,
     POSITIONS,
@@ -28,7 +29,7 @@ from recalib.laboratory.tables.columns import (
     Columns,
 )
 from recalib.laboratory.tables.description import Description
-from recalib.laboratory.tables.table import Table, read_table, table_of
+from recalib.laboratory.tables.table import Table, read_table, table_of, table_text
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted, listed
 
@@ -133,6 +134,28 @@ def joint_headings(arm: Arm, angle: str = "deg", length: str = "mm") -> list[str
     names = (PREFIX + joint if joint in taken else joint for joint in arm.coupling.columns)
     units = (length if slides else angle for slides in arm.coupling.slides)
     return [f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)]
+
+
+def postures_table(arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool = False) -> bytes:
+    """Joint coordinates (n, columns) and poses (n, 4, 4) in the columns that we read.
+
+    Args:
+        fake: the poses are commands, in columns that `read_desired` refuses: they would be
+            corrected twice.
+    """
+    scales = [1e3 if slides else 180 / np.pi for slides in arm.coupling.slides]
+    texts = [[f"{number:.9f}" for number in row] for row in joints * scales]
+    own = (dict(zip(joint_headings(arm), row, strict=True)) for row in texts)
+    return table_text(row | pose for row, pose in zip(own, pose_rows(poses, fake), strict=True))
+
+
+def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]:
+    """The cells of poses (n, 4, 4) [m] by their headings; see `postures_table`."""
+    kinds = (FAKE_POSITIONS, FAKE_ROTATIONS) if fake else (POSITIONS, ROTATION_VECTORS)
+    headings = [heading for kind in kinds for heading in kind.written]
+    turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
+    for row in np.concatenate([1e3 * poses[:, :3, 3], turns], axis=1):
+        yield dict(zip(headings, (f"{number:.9f}" for number in row), strict=True))
 
 
 def check_measured(rows: Measurements) -> Measurements:

@@ -2,22 +2,20 @@
 
 import re
 from os import PathLike
-from xml.etree import ElementTree
-
-import pinocchio as pin
 
 from recalib.errors import InvalidFile
 from recalib.files.quantities import ANGLE, LENGTH
+from recalib.laboratory.report.templates import render
 from recalib.laboratory.tables.columns import TEXT, Columns
 from recalib.laboratory.tables.table import read_table
-from recalib.laboratory.urdf.origins import angles_of, written
+from recalib.laboratory.urdf.origins import origin_element, written
 from recalib.nominal.arms import UNBOUNDED
 from recalib.nominal.denavit_hartenberg import BASE, MOST, TOOL, Row
 from recalib.nominal.kinematics import Arm, tool_frame
 
 MOUNT = f"{TOOL}_mount"  # the joint by which the tool hangs on the last link
 KINDS = "revolute", "prismatic"
-NO_XML = re.compile(r"[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+NO_XML = re.compile(r"[^ -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 PARAMETERS = {"a": LENGTH, "alpha": ANGLE, "d": LENGTH, "theta": ANGLE}
 LAYOUT = (
     Columns("joint", ("joint",), TEXT, needed=True),
@@ -59,34 +57,8 @@ def read_rows(path: str | PathLike[str]) -> list[Row]:
 
 def urdf_of(arm: Arm) -> str:
     """The URDF of an arm, without masses and limits: a link for each joint, and the tool."""
-    robot = ElementTree.Element("robot", name="arm")
-    model, parent = arm.model, BASE
-    ElementTree.SubElement(robot, "link", name=BASE)
-    for index, (name, axis, slides) in enumerate(
-        zip(arm.joints, arm.axes, arm.slides, strict=True), start=1
-    ):
-        child = f"{name}_link"
-        kind = "prismatic" if slides else "continuous"
-        joint = _add(robot, name, kind, parent, child, model.jointPlacements[index])
-        ElementTree.SubElement(joint, "axis", xyz=written(axis))
-        if slides:  # which a URDF must bound
-            bounds = {"lower": str(-UNBOUNDED), "upper": str(UNBOUNDED)}
-            ElementTree.SubElement(joint, "limit", bounds, effort="0", velocity="0")
-        parent = child
-    tool = model.frames[tool_frame(model, arm.tool)].placement
-    _add(robot, MOUNT, "fixed", parent, TOOL, tool)
-    ElementTree.indent(robot)
-    return ElementTree.tostring(robot, encoding="unicode") + "\n"
-
-
-def _add(
-    robot: ElementTree.Element, name: str, kind: str, parent: str, child: str, placement: pin.SE3
-) -> ElementTree.Element:
-    """A link, and the joint by which it hangs on another."""
-    ElementTree.SubElement(robot, "link", name=child)
-    joint = ElementTree.SubElement(robot, "joint", name=name, type=kind)
-    ElementTree.SubElement(joint, "parent", link=parent)
-    ElementTree.SubElement(joint, "child", link=child)
-    angles = written(angles_of(placement.homogeneous))
-    ElementTree.SubElement(joint, "origin", xyz=written(placement.translation), rpy=angles)
-    return joint
+    origins = [origin_element(pose.homogeneous) for pose in arm.model.jointPlacements[1:]]
+    joints = [*zip(arm.joints, arm.slides, map(written, arm.axes), origins, strict=True)]
+    tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
+    mounted = {"tool": TOOL, "mount": MOUNT, "mounted": origin_element(tool)}
+    return render("arm.urdf.j2", base=BASE, joints=joints, unbounded=UNBOUNDED, **mounted)

@@ -41,7 +41,7 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
     added = (
         f'  <link name="{name}"/>\n  <joint name="{name}" type="fixed">\n'
         f'    <parent link="{nominal.tool}"/>\n    <child link="{name}"/>\n'
-        f"    {_origin(tool)}\n  </joint>\n"
+        f"    {origin_element(tool)}\n  </joint>\n"
     )
     return with_origins(source, origins, added), name
 
@@ -77,7 +77,7 @@ def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = 
     pieces, done = [], 0
     for joint in sorted(origins, key=lambda joint: spans[joint]):
         start, end = spans[joint]
-        new = _origin(origins[joint]).replace("<", f"<{prefix}")
+        new = origin_element(origins[joint]).replace("<", f"<{prefix}")
         pieces += [text[done:start], (new if start < end else f"\n    {new}").encode()]
         done = end
     more = re.sub("(</?)", rf"\1{prefix}", added).encode("utf-8")
@@ -85,7 +85,8 @@ def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = 
     return changed.decode("utf-8").encode(code)
 
 
-def _origin(pose: np.ndarray) -> str:
+def origin_element(pose: np.ndarray) -> str:
+    """The origin of a joint at a pose (4, 4) [m]."""
     return f'<origin xyz="{written(pose[:3, 3])}" rpy="{written(angles_of(pose))}"/>'
 
 
@@ -94,17 +95,14 @@ def written(vector: np.ndarray) -> str:
     return " ".join(f"{number + 0.0:.17g}" for number in vector)
 
 
-def offset_poses(calibration: Calibration) -> list[np.ndarray]:
-    """For each joint, the motion (4, 4) of its frame by its offset."""
+def offset_poses(calibration: Calibration) -> np.ndarray:
+    """The motions (joints, 4, 4) [m] of the joints' frames by their offsets."""
     arm = calibration.model.nominal
     offsets = calibration.model.coefficients(calibration.estimate.parameters)["offset"]
-    moves = arm.axes * offsets[:, None]
-    poses = [np.eye(4) for _ in arm.joints]
-    for pose, move, slides in zip(poses, moves, arm.slides, strict=True):
-        if slides:
-            pose[:3, 3] = move
-        else:
-            pose[:3, :3] = Rotation.from_rotvec(move).as_matrix()
+    moves, slides = arm.axes * offsets[:, None], arm.slides[:, None]
+    poses = np.tile(np.eye(4), (len(moves), 1, 1))
+    poses[:, :3, :3] = Rotation.from_rotvec(np.where(slides, 0.0, moves)).as_matrix()
+    poses[:, :3, 3] = np.where(slides, moves, 0.0)
     return poses
 
 
@@ -148,12 +146,11 @@ def _segments(
 
 
 def _pose(origin: ElementTree.Element | None) -> np.ndarray:
-    pose = np.eye(4)
-    if origin is not None:
-        x, y, z = map(float, origin.get("xyz", "0 0 0").split())
-        roll, pitch, yaw = map(float, origin.get("rpy", "0 0 0").split())
-        pose[:3, 3], pose[:3, :3] = (x, y, z), pin.rpy.rpyToMatrix(roll, pitch, yaw)
-    return pose
+    given = {} if origin is None else origin.attrib
+    place, angles = (
+        np.array(given.get(name, "0 0 0").split(), dtype=float) for name in ("xyz", "rpy")
+    )
+    return pin.SE3(pin.rpy.rpyToMatrix(angles), place).homogeneous
 
 
 def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int, str]:

@@ -6,6 +6,7 @@ arm. So parallel axes move no frame far away.
 """
 
 import hashlib
+from itertools import accumulate
 
 import numpy as np
 import pinocchio as pin
@@ -27,25 +28,15 @@ def kinematics_yaml(calibration: Calibration) -> str | None:
     Errors beyond the last joint are not among them.
     """
     nominal = calibration.model.nominal
-    pattern = _pattern(nominal)
-    if pattern is None:
+    if (pattern := _pattern(nominal)) is None:
         return None
-    frames = _frames(nominal.model)
     # poses of the pattern's frames relative to the joints' own, with the base first
-    relative = [
-        pattern[0],
-        *(np.linalg.inv(own) @ dh for own, dh in zip(frames, pattern[1:], strict=True)),
-    ]
+    relative = np.linalg.inv([np.eye(4), *_frames(nominal.model)]) @ pattern
     corrected = calibration.model.own_arm(calibration.estimate.parameters).model
-    origins = {
-        link: np.linalg.inv(relative[index])
-        @ corrected.jointPlacements[index + 1].homogeneous
-        @ offset
-        @ relative[index + 1]
-        for index, (link, offset) in enumerate(zip(LINKS, offset_poses(calibration), strict=True))
-    }
+    placements = [placement.homogeneous for placement in corrected.jointPlacements[1:]]
+    origins = np.linalg.inv(relative[:-1]) @ placements @ offset_poses(calibration) @ relative[1:]
     lines = ["kinematics:"]
-    for link, origin in origins.items():
+    for link, origin in zip(LINKS, origins, strict=True):
         numbers = zip(_NUMBERS, [*origin[:3, 3], *angles_of(origin)], strict=True)
         lines += [f"  {link}:", *(f"    {name}: {number:.17g}" for name, number in numbers)]
     digest = hashlib.sha256("\n".join(lines).encode()).hexdigest()
@@ -56,7 +47,7 @@ def _frames(model: pin.Model) -> list[np.ndarray]:
     """Poses (4, 4) of the joints' frames in the base with all joints at zero."""
     data = model.createData()
     pin.forwardKinematics(model, data, np.zeros(model.nq))
-    return [placement.homogeneous for placement in list(data.oMi)[1:]]
+    return [placement.homogeneous for placement in data.oMi[1:]]
 
 
 def _pattern(arm: Arm) -> list[np.ndarray] | None:
@@ -83,9 +74,7 @@ def _pattern(arm: Arm) -> list[np.ndarray] | None:
         _pose(y=three[2] - lift[2], roll=np.pi / 2),
         _pose(y=two[1] - end[1], roll=-np.pi / 2),
     ]
-    pattern = [turned]
-    for length in lengths:
-        pattern.append(pattern[-1] @ length)
+    pattern = [*accumulate([turned, *lengths], np.matmul)]
     alike = all(
         _on_one_axis(frame, axis, dh)
         for frame, axis, dh in zip(_frames(arm.model), arm.axes, pattern[1:], strict=True)
@@ -101,6 +90,4 @@ def _on_one_axis(frame: np.ndarray, axis: np.ndarray, other: np.ndarray) -> bool
 
 
 def _pose(x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0) -> np.ndarray:
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = pin.rpy.rpyToMatrix(roll, 0.0, 0.0), (x, y, z)
-    return pose
+    return pin.SE3(pin.rpy.rpyToMatrix(roll, 0.0, 0.0), np.array([x, y, z])).homogeneous

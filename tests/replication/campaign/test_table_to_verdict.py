@@ -55,21 +55,18 @@ def wide():
     return analysed(np.log(1.2), 0.4)
 
 
-def test_a_null_is_called_no_effect(nulls):
+def test_a_null_is_called_no_effect_and_one_that_crosses_the_limit_depends(nulls):
     for result in nulls.values():
         assert share(result, *FALSE) <= 0.01
         assert share(result, Verdict.NO_EFFECT) >= 0.8
+    assert share(analysed(0.0, 0.4, worlds=FEW), Verdict.DEPENDS) >= 0.8
+    assert share(analysed(np.log(0.05), 0.4, worlds=FEW), Verdict.SUPPORTED) >= 0.95
 
 
 @pytest.mark.parametrize("between", [0.0, *BETWEEN])
 def test_an_effect_of_20_percent_is_found(between):
     assert share(analysed(np.log(0.8), between, worlds=FEW), Verdict.SUPPORTED) >= 0.8
     assert share(analysed(np.log(1.25), between, worlds=FEW), Verdict.CONTRADICTED) >= 0.8
-
-
-def test_an_effect_that_crosses_the_limit_depends():
-    assert share(analysed(0.0, 0.4, worlds=FEW), Verdict.DEPENDS) >= 0.8
-    assert share(analysed(np.log(0.05), 0.4, worlds=FEW), Verdict.SUPPORTED) >= 0.95
 
 
 def test_intervals_cover(nulls, wide):

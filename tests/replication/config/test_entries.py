@@ -64,9 +64,5 @@ def test_a_shift_of_the_base_may_say_both():
 
 @given(st.floats(0, 3), st.floats(-3, 3))
 def test_no_digit_is_lost(size, angle):
-    for entry in (
-        LinkShortening("a", size),
-        EncoderShift("a", angle),
-        EccentricGear("a", 1, angle),
-    ):
-        assert ENTRY.validate_json(ENTRY.dump_json(entry)) == entry
+    for its in (LinkShortening("a", size), EncoderShift("a", angle), EccentricGear("a", 1, angle)):
+        assert ENTRY.validate_json(ENTRY.dump_json(its)) == its

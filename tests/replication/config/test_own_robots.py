@@ -36,9 +36,8 @@ def entry_of(row) -> dict:
 def with_arm(folder, entry, **more):
     """As read before anything runs, like quick and with the paper's damage."""
     path = folder / "mine.yaml"
-    path.write_text(
-        yaml.safe_dump({"like": "quick", "robot": "mine", "robots": {"mine": entry}} | more)
-    )
+    mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry}}
+    path.write_text(yaml.safe_dump(mine | more))
     return study_of(ROOT, [path])
 
 

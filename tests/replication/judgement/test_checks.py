@@ -9,6 +9,8 @@ from recalib import RecalibError
 from replication.judgement import cells_of_mean, check, expect, propose, report, summarise
 from replication.running import BANDS, write
 from replication.training import ERRORS, places
+from tests.conftest import changed
+from tests.replication.conftest import ALONE
 
 KEYS = {"robot": "ur10", "learner": "improved", "iterations": 200}
 SUMMARY = pd.DataFrame(
@@ -46,16 +48,8 @@ def test_intervals_hold_the_mean_as_often_as_they_say():
 
 
 def test_a_summary_has_a_row_for_each_place_learner_and_length(study, tmp_path):
-    plan = study.experiments.model_copy(
-        update={
-            "scenarios": ("links",),
-            "learners": {"improved": (10, 20)},
-            "robots": ("z1",),
-            "own": {},
-            "switches": False,
-        }
-    )
-    small, paths = study.model_copy(update={"experiments": plan}), []
+    plan = {"scenarios": ("links",), "learners": {"improved": (10, 20)}}
+    small, paths = changed(study, experiments=plan | ALONE | {"robots": ("z1",)}), []
     for number, learners in enumerate(places(small).values()):
         rows = [
             {"iterations": its, "seed": seed, "iteration": when, "moves": 2 * when, "refused": seed}
@@ -80,35 +74,17 @@ def test_a_summary_has_a_row_for_each_place_learner_and_length(study, tmp_path):
     assert (table[f"final_{ERRORS[0]}_low"] < table[f"final_{ERRORS[0]}"]).all()
 
 
-def test_results_pass_their_own_bands_and_a_change_does_not():
+def test_results_pass_their_own_bands_and_changes_and_other_trainings_do_not():
     bands = expect(SUMMARY)
     assert ",".join(bands.columns) == BANDS, "as they are read"
     assert check(SUMMARY, bands)["ok"].all()
     for column, value in (("final_position_error_cm", 0.30), ("final_orientation_error_deg", 0.15)):
         table = check(SUMMARY.assign(**{column: value}), bands)
         rows = (table["scenario"] == "links") & (table["error"] == column[6:])
-        assert (
-            not table[rows]["ok"].any()
-            and table[~rows & (table["scenario"] == "links")]["ok"].all()
-        )
-
-
-def test_a_band_reaches_twice_as_far_as_the_interval():
-    row = expect(SUMMARY).iloc[0]
-    assert [row["low"], row["high"]] == pytest.approx([0.25 * 0.96**2, 0.25 * 1.05**2])
-
-
-def test_what_is_negligible_only_has_to_stay_so():
-    bands = expect(SUMMARY)
-    intact = bands[bands["scenario"] == "intact"]
-    assert intact[["low", "high"]].to_numpy().tolist() == [[0.0, 1e-3]] * 2
-    table = check(SUMMARY.assign(final_position_error_cm=[0.25, 2e-3]), bands)
-    assert table.loc[~table["ok"], ["scenario", "error"]].to_numpy().tolist() == [
-        ["intact", "position_error_cm"]
-    ]
-
-
-def test_a_training_without_a_band_and_a_band_without_a_training_fail():
+        assert not table[rows]["ok"].any()
+        assert table[~rows & (table["scenario"] == "links")]["ok"].all()
+    table = check(SUMMARY.assign(final_position_error_cm=np.nan), expect(SUMMARY))
+    assert table["ok"].sum() == 2
     bands = expect(SUMMARY)
     assert not check(SUMMARY, bands[bands["scenario"] == "links"])["ok"].all()
     assert not check(SUMMARY[:1], bands)["ok"].all()
@@ -116,9 +92,16 @@ def test_a_training_without_a_band_and_a_band_without_a_training_fail():
     assert not check(SUMMARY.assign(robot="ur5"), bands)["ok"].any(), "of another robot"
 
 
-def test_nan_is_outside_of_every_band():
-    table = check(SUMMARY.assign(final_position_error_cm=np.nan), expect(SUMMARY))
-    assert table["ok"].sum() == 2
+def test_a_band_reaches_twice_as_far_as_the_interval():
+    row = expect(SUMMARY).iloc[0]
+    assert [row["low"], row["high"]] == pytest.approx([0.25 * 0.96**2, 0.25 * 1.05**2])
+    bands = expect(SUMMARY)
+    intact = bands[bands["scenario"] == "intact"]
+    assert intact[["low", "high"]].to_numpy().tolist() == [[0.0, 1e-3]] * 2
+    table = check(SUMMARY.assign(final_position_error_cm=[0.25, 2e-3]), bands)
+    assert table.loc[~table["ok"], ["scenario", "error"]].to_numpy().tolist() == [
+        ["intact", "position_error_cm"]
+    ]
 
 
 def test_a_failure_names_the_training_the_value_and_the_band(tmp_path):

@@ -29,12 +29,8 @@ def folder(study, project, monkeypatch) -> Path:
     subprocess.run(["git", "init", "--quiet"], check=True)
     subprocess.run(["git", "add", *FEW], check=True)
     archive.NOTES.mkdir(parents=True)
-    note = {
-        "rule": "claims",
-        "input": ["results/summary.csv"],
-        "starttime": 1e9,
-        "endtime": 1e9 + 5,
-    }
+    times = {"starttime": 1e9, "endtime": 1e9 + 5}
+    note = {"rule": "claims", "input": ["results/summary.csv"]} | times
     name = base64.b64encode(b"results/claims.json").decode()
     (archive.NOTES / name).write_text(json.dumps(note), encoding="utf-8")
     drawn = its / "results" / "figures"

@@ -58,10 +58,8 @@ def history(iterations: list[int], seeds: int, learner: str) -> pd.DataFrame:
     for seed in range(seeds):
         for iteration in iterations:
             errors = INITIAL * (1 + 0.05 * seed) / (1 + iteration / soon)
-            named = dict(zip(ERRORS, errors, strict=True))
-            rows.append(
-                {"iterations": iterations[-1], "seed": seed, "iteration": iteration} | named
-            )
+            about = {"iterations": iterations[-1], "seed": seed, "iteration": iteration}
+            rows.append(about | dict(zip(ERRORS, errors, strict=True)))
     return pd.DataFrame(rows)
 
 
@@ -164,18 +162,12 @@ def project(small, tmp_path_factory) -> Callable[..., Path]:
     def make(change: Callable[[pd.DataFrame], pd.DataFrame] = lambda table: table) -> Path:
         folder = tmp_path_factory.mktemp("project")
         for path, table in tables(small):
-            write_in(folder / path, change(table))
+            write(folder / path, change(table))
         shutil.copy(ROOT / DESIGN, folder / DESIGN)
-        found = judge(Evidence(small, folder))
-        (folder / RESULTS / "claims.json").write_bytes(written(found))
+        write(folder / RESULTS / "claims.json", written(judge(Evidence(small, folder))))
         return folder
 
     return make
-
-
-def write_in(path: Path, table: pd.DataFrame) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write(path, table)
 
 
 @pytest.fixture(scope="session")

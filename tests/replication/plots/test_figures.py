@@ -23,7 +23,7 @@ from replication.plots import (
     styles_of_trainings,
 )
 from replication.training import leading
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import NEEDED, disturbed
 
 
@@ -64,16 +64,10 @@ def test_figure_1_shows_the_means_of_the_seeds(figures, evidence):
             iterations, errors = line(axes, error.kind)
             means = history.groupby("iteration")[error.column].mean()
             assert iterations[-1] == 200 and np.allclose(errors, means)
-
-
-def test_learners_are_named_with_their_iterations(figures, evidence):
     (legend,) = figures[Figure.LEARNERS].legends
     labels = [text.get_text() for text in legend.get_texts()]
-    assert labels == [
-        "improved, 200 iterations",
-        "Ritter, 200 iterations",
-        "Ritter, 10,000 iterations",
-    ]
+    trained = "improved, 200", "Ritter, 200", "Ritter, 10,000"
+    assert labels == [f"{name} iterations" for name in trained]
     _, errors = line(figures[Figure.LEARNERS].axes[0], labels[0])
     assert errors[-1] == pytest.approx(evidence.errors(IMPROVED, 200)[:, 0].mean())
 
@@ -105,7 +99,7 @@ def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project, tmp_pat
     plt.close(figure)
 
 
-def test_contrasts_show_every_setup_and_what_was_found(figures, evidence):
+def test_contrasts_show_every_setup_and_what_was_found(figures, evidence, small):
     shown, found = rows(evidence), evidence.findings()
     assert {row.claim.statement.id for row in shown} == {*LABELS}
     words = [text for axes in figures[Figure.CONTRASTS].axes for text in right_of(axes)]
@@ -121,9 +115,6 @@ def test_contrasts_show_every_setup_and_what_was_found(figures, evidence):
     )
     ratios = [row.numbers for row in shown if not row.is_share]
     assert np.allclose(np.sort(dots), np.sort(np.concatenate(ratios)))
-
-
-def test_every_claim_that_setups_decide_by_errors_is_shown(small):
     estimands = {its.statement.id: getattr(its, "estimand", None) for its in claims(small)}
     by_errors = {name for name, its in estimands.items() if its and not isinstance(its, Crossing)}
     assert by_errors == {*LABELS}
@@ -139,9 +130,6 @@ def test_the_benchmark_shows_two_scenarios(figures, evidence):
     own = table.query("scenario == 'links_encoders' and learner == 'improved'")
     moves, errors = line(figure.axes[0], "improved")
     assert np.allclose(moves, own["moves"]) and np.allclose(errors, own["position_error_cm"])
-
-
-def test_the_real_arm_shows_no_line_where_nothing_was_measured(figures, evidence):
     (axes,) = figures[Figure.REAL_ARM].axes
     table = evidence.table("real.csv").query("learner == 'improved'")
     poses, errors = line(axes, "improved on a twin")
@@ -155,12 +143,11 @@ def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_pa
     assert figures_of(small) == every and every[0] == "figure1"
     campaign = {Figure.STEPS.file, Figure.CONTRASTS.file}
     untold = [name for name in every if name not in campaign]
-    other = small.model_copy(update={"name": "other"})
+    other = changed(small, name="other")
     assert figures_of(other) == untold
     monkeypatch.chdir(tmp_path)
     assert figures_of(small) == untold, "no setup is measured"
-    plan = small.experiments.model_copy(update={"evidence": False})
-    quick = other.model_copy(update={"experiments": plan})
+    quick = changed(other, experiments={"evidence": False})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
     assert figures_of(quick) == [its.file for its in trained]
 

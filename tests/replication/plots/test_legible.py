@@ -38,15 +38,11 @@ def texts(figure) -> list[Text]:
 
 
 @EVERY
-def test_letters_are_large_enough_on_a_phone_and_in_the_article(figures, name):
+def test_words_are_large_enough_and_stand_on_no_others(figures, name):
     figure = figures[name]
     small = min(text.get_fontsize() for text in texts(figure))
     assert small * PHONE / (72 * figure.get_figwidth()) >= LEAST
     assert small * ARTICLE / figure.get_figwidth() >= SMALLEST
-
-
-@EVERY
-def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
     figure = figures[name]
     boxes = [(text.get_text(), text.get_window_extent()) for text in texts(figure)]
     for (one, its), (other, another) in combinations(boxes, 2):
@@ -83,8 +79,7 @@ def test_colours_of_a_figure_differ_to_everyone(colours, seen):
     meant = {color.lower() for color in MEANT if color.startswith("#")}
     assert all(used & meant for used in colours.values())
     for name, used in colours.items():
-        shades = {
-            color: lab(SEEN[seen] @ linear(255 * np.array(to_rgb(color)))) for color in used & meant
-        }
+        meant_here = {color: linear(255 * np.array(to_rgb(color))) for color in used & meant}
+        shades = {color: lab(SEEN[seen] @ rgb) for color, rgb in meant_here.items()}
         shades["paper"] = lab(np.ones(3))
         assert apart(shades) >= test_colours.LEAST, name

@@ -13,6 +13,8 @@ from replication.config import Study
 from replication.recording import CLOCK, record, recorded_places
 from replication.scenarios import Resolved, resolve
 from replication.training.train import train
+from tests.conftest import changed
+from tests.replication.conftest import ALONE
 
 OWN, INTACT = "links_encoders", "intact"
 LEARNERS = "improved", "ritter"
@@ -40,14 +42,10 @@ class Files(NamedTuple):
 @pytest.fixture(scope="session")
 def small(study) -> Study:
     """The shipped study with two short trainings and damages of every kind."""
-    plan = {"scenarios": (OWN, INTACT), "robots": (), "own": {}, "switches": False}
-    plan["learners"] = dict.fromkeys(LEARNERS, (ITERATIONS,))
-    changes = {
-        "experiments": study.experiments.model_copy(update=plan),
-        "scenarios": study.scenarios | {OWN: DAMAGES},
-        "training": study.training.model_copy(update={"seeds": 3, "tests": TESTS}),
-    }
-    return study.model_copy(update=changes)
+    learners = dict.fromkeys(LEARNERS, (ITERATIONS,))
+    plan = {"scenarios": (OWN, INTACT), "learners": learners} | ALONE
+    scenarios, training = study.scenarios | {OWN: DAMAGES}, {"seeds": 3, "tests": TESTS}
+    return changed(study, experiments=plan, scenarios=scenarios, training=training)
 
 
 def trained(study: Study, root: Path) -> Files:

@@ -135,7 +135,9 @@ def test_an_identification_finds_the_damage_and_leaves_nothing(written):
         close([left["position"], left["orientation"]], 0)
 
 
-def test_what_is_written_is_the_recorded_training(small, files, tmp_path):
+def test_what_is_written_is_the_recorded_training_and_what_is_shipped_the_studys(
+    small, files, tmp_path, study, robot
+):
     entries = LinkShortening("wrist_1_link", 0.01), EncoderShift("elbow_joint", 0.02)
     resolved = Resolved.read(files.scenarios[0]).model_copy(update={"damages": entries})
     (tmp_path / "scenario.json").write_text(resolved.model_dump_json())
@@ -148,9 +150,6 @@ def test_what_is_written_is_the_recorded_training(small, files, tmp_path):
     seed = typical_seed(pd.read_parquet(files.histories[0]))
     poses = Stream.SCENARIO.draw(small.seed, [seed], ITERATIONS, TESTS, scenario=OWN)
     assert its.desired == poses.desired[0].tolist() and its.tests == poses.tests[0].tolist()
-
-
-def test_what_is_shipped_is_of_the_study(study, robot):
     shipped, seeds = content(STUDY), range(study.training.seeds)
     poses = Stream.SCENARIO.draw(study.seed, seeds, 200, 200, scenario=study.scenario)
     assert shipped.desired in poses.desired.tolist() and shipped.tests in poses.tests.tolist()

@@ -9,6 +9,7 @@ import rerun as rr
 from recalib import InvalidFile, LinkShortening
 from replication.recording import check_end, record, typical_seed
 from replication.recording.viewer import PROGRAM, quiet
+from tests.conftest import changed
 from tests.replication.recording.conftest import DAMAGES, OWN, trained
 
 
@@ -34,11 +35,9 @@ def test_a_recording_that_ends_too_early_is_refused(recording, tmp_path, share):
 
 def test_two_recordings_of_the_same_are_equal_and_a_millimetre_shows(small, files, tmp_path):
     longer = [*DAMAGES[:1], LinkShortening("forearm_link", 0.041), *DAMAGES[2:]]
-    plan = small.experiments.model_copy(update={"scenarios": (OWN,)})
     for damages, same in ((DAMAGES, True), (longer, False)):
-        study = small.model_copy(
-            update={"experiments": plan, "scenarios": small.scenarios | {OWN: damages}}
-        )
+        scenarios = small.scenarios | {OWN: damages}
+        study = changed(small, experiments={"scenarios": (OWN,)}, scenarios=scenarios)
         (tmp_path / str(same)).mkdir()
         its = trained(study, tmp_path / str(same))
         record(study, *its)

@@ -23,6 +23,7 @@ from replication.training import (
     write_scenarios,
 )
 from replication.training import poses as module
+from tests.conftest import changed
 from tests.replication.conftest import settings_of
 
 WORDS = {"number": 1, "setup": 0, "replicate": 0, "widths": "wide"}
@@ -36,17 +37,16 @@ def for_results():
     return Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario="links")
 
 
-def test_a_search_takes_no_poses_of_results(study):
+def test_a_search_takes_no_poses_of_results_nor_results_those_of_a_search(study):
     class Its:
         poses = for_results()
 
     with pytest.raises(TypeError, match="SearchPoses expected, ResultPoses found: links"):
         Tuning([Its()], Its(), study.search)
-
-
-def test_results_take_no_poses_of_a_search():
     with pytest.raises(TypeError, match="ResultPoses expected, SearchPoses found: search 1 in"):
         train_for_results(None, None, for_a_search(), [4])
+    with pytest.raises(ValueError, match="SCENARIO: 'search 1 in setup 0, replicate 0' is the"):
+        Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario=for_a_search().name)
 
 
 @pytest.mark.parametrize("kind", [SearchPoses, ResultPoses])
@@ -62,11 +62,6 @@ def test_a_stream_is_of_a_search_or_of_results_by_its_name(stream):
     drawn = stream.draw(1, [0], 4, 3, scenario="links", **WORDS)
     assert isinstance(drawn, SearchPoses) == drawn.name.startswith("search ")
     assert isinstance(drawn, ResultPoses) != isinstance(drawn, SearchPoses)
-
-
-def test_results_cannot_take_the_name_of_a_search():
-    with pytest.raises(ValueError, match="SCENARIO: 'search 1 in setup 0, replicate 0' is the"):
-        Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario=for_a_search().name)
 
 
 @pytest.fixture(scope="module")
@@ -93,9 +88,7 @@ def few(study):
         "paper_damage": {"shorten": (0.04,), "shift": (0.07,), "poses": 5},
     }
     rest |= {"experiments": experiments}
-    return study.model_copy(
-        update={name: getattr(study, name).model_copy(update=its) for name, its in rest.items()}
-    )
+    return changed(study, **rest)
 
 
 class Drawn:

@@ -33,7 +33,7 @@ from replication.training import (
     remaining_errors,
     with_tool_point,
 )
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 
 # As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
@@ -87,14 +87,10 @@ def recording(table, ur5, description, tmp_path_factory):
     return read_of(ur5.arm, path, description)
 
 
-def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
-    distance = np.linalg.norm(
-        ur5.arm.forward(recording.angles)[:, :3, 3] - recording.nominal, axis=1
-    )
+def test_learners_leave_ever_smaller_errors_of_what_was_recorded(recording, ur5):
+    reached = ur5.arm.forward(recording.angles)[:, :3, 3]
+    distance = np.linalg.norm(reached - recording.nominal, axis=1)
     assert distance.max() < 5e-5
-
-
-def test_learners_leave_ever_smaller_errors(recording, ur5):
     known, unknown = recording[:100], recording[100:]
     left = {name: 1e3 * remaining_errors(name, ur5, known, unknown).mean() for name in peers()}
     assert left["uncorrected"] == pytest.approx(
@@ -132,9 +128,8 @@ def files(table, tmp_path):
 
 
 def learned(study, files, learner, poses, subsets, settings=(), **changes):
-    real = study.real.model_copy(update={"poses": poses, "subsets": subsets} | changes)
-    its = study.model_copy(update={"real": real})
-    return learn(its, learner, *files, settings)
+    real = {"poses": poses, "subsets": subsets} | changes
+    return learn(changed(study, real=real), learner, *files, settings)
 
 
 def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(study, files, monkeypatch):
@@ -155,8 +150,7 @@ def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(study, files,
 
 
 def test_on_a_twin_a_learner_chooses_its_poses(study, files, settings, monkeypatch):
-    training = study.training.model_copy(update={"tests": 5})
-    its = study.model_copy(update={"training": training})
+    its = changed(study, training={"tests": 5})
     asked, learner = [], Tuned.learner
 
     def noted(self, *what):
@@ -173,7 +167,9 @@ def test_on_a_twin_a_learner_chooses_its_poses(study, files, settings, monkeypat
     assert by_moves[400] < by_moves[2]
 
 
-def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
+def test_tables_of_too_little_or_in_another_frame_are_refused(
+    recording, ur5, tmp_path, table, description
+):
     path = tmp_path / "half.toml"
     path.write_text('[target]\nposition = ["0 mm", "0 mm", "1 mm"]\n')
     with pytest.raises(InvalidFile, match=r"half\.toml: its instrument or its target is missing"):
@@ -183,9 +179,6 @@ def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
     pd.DataFrame(columns).to_csv(tmp_path / "half.csv", index=False)
     with pytest.raises(InvalidFile, match="lacks x_nominal, y_nominal, z_nominal or what was"):
         read_of(ur5.arm, tmp_path / "half.csv", Description(instrument=np.eye(4)))
-
-
-def test_a_table_in_another_frame_is_refused(table, ur5, description, tmp_path):
     path = tmp_path / "table.csv"
     table.assign(x_t=-table["x_t"], y_t=-table["y_t"]).to_csv(path, index=False)
     with pytest.raises(WrongNominal, match=r"likely: the base turned by 180\.0 deg"):
@@ -201,13 +194,8 @@ def test_another_table_than_the_one_that_is_meant_is_refused(digest, study, tmp_
         Source(url="https://there", file=str(given), sha256=sha256) for sha256 in (its, digest)
     )
     assert fetched(right) == b"a table"
-    data = study.real.data.model_copy(update={"fit": right, "test": wrong})
-    real = study.real.model_copy(update={"data": data})
     with pytest.raises(RecalibError, match=f"has SHA-256 {its}; expected {digest}"):
-        fetch(study.model_copy(update={"real": real}))
-
-
-def test_a_table_out_of_reach_says_how_to_bring_one(tmp_path):
+        fetch(changed(study, real={"data": {"fit": right, "test": wrong}}))
     gone = str(tmp_path / "gone.csv")
     with pytest.raises(RecalibError, match=r"gone.csv is out of reach .* can be named in real"):
         fetched(Source(url="https://there", file=gone, sha256="0" * 64))
