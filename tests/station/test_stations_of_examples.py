@@ -219,7 +219,7 @@ def test_stop_ends_a_move_from_another_thread(station, arm):
 def test_a_picture_is_shown_with_its_corners_and_what_they_are_off_by(tmp_path):
     """Each arrow begins at a corner, and is a hundred times as long as its error."""
     cell = HandEyeCell(3, True)
-    (pose,) = cell.seen(cell.flange(1))
+    (pose,) = cell.board_poses(cell.flange(1))
     grey = cell.draw(pose)
     cv2.imwrite(str(tmp_path / "seen.png"), grey)
     with rr.RecordingStream("live") as rec:

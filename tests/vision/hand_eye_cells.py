@@ -79,20 +79,20 @@ class HandEyeCell:
             return self.target @ np.linalg.inv(boards) @ np.linalg.inv(self.camera)
         return self.camera @ boards @ np.linalg.inv(self.target)
 
-    def seen(self, flange: np.ndarray) -> np.ndarray:
+    def board_poses(self, flange: np.ndarray) -> np.ndarray:
         """Poses (..., 4, 4) [m] of the board in the camera."""
         between = np.linalg.inv(flange) if self.in_hand else flange
         return np.linalg.inv(self.camera) @ between @ self.target
 
     def _sees(self, flange: np.ndarray) -> bool:
-        pose = self.seen(flange)
+        pose = self.board_poses(flange)
         ahead = self.board.points @ pose[2, :3] + pose[2, 3]
         if ahead.min() < 0.3 or pose[2, 2] < 0.5:
             return False
         pixels, _ = projected(self.board.points, self.lens, pose)
         return bool(((pixels > 20) & (pixels < np.subtract(self.lens.size, 20))).all())
 
-    def said(self, flange: np.ndarray) -> np.ndarray:
+    def reported(self, flange: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) that the controller reports, off by its errors."""
         size = len(flange), 3
         off = self.rotation * self.rng.standard_normal(size)
@@ -101,7 +101,7 @@ class HandEyeCell:
     def views(self, flange: np.ndarray, noise: float = NOISE) -> list[Corners]:
         """All corners in a picture at each pose, off by some noise [px]."""
         views = []
-        for pose in self.seen(flange):
+        for pose in self.board_poses(flange):
             pixels, _ = projected(self.board.points, self.lens, pose)
             pixels = pixels + noise * self.rng.standard_normal(pixels.shape)
             views.append(Corners(np.arange(len(pixels)), pixels, 1.0))
@@ -119,7 +119,7 @@ class HandEyeCell:
         sightings = [sighting(self.board, lens, view, True, False) for view in views]
         board, optics = optics_of(lens, sightings)
         known = None if height is None else (float(self.target[2, 3]) + height, 1e-4)
-        return Sights(self.said(flange), board, self.in_hand, optics, known)
+        return Sights(self.reported(flange), board, self.in_hand, optics, known)
 
     def draw(self, pose: np.ndarray) -> np.ndarray:
         """A picture (height, width) of the board at a pose in the camera."""

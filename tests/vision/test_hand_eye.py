@@ -62,8 +62,8 @@ def tables(tmp_path, monkeypatch):
 
     def write(cell: HandEyeCell, count: int = POSES, way: str = "ros"):
         flange = cell.flange(count)
-        (tmp_path / "poses.txt").write_text(written(cell.said(flange), way))
-        (tmp_path / "targets.txt").write_text(written(cell.seen(flange)))
+        (tmp_path / "poses.txt").write_text(written(cell.reported(flange), way))
+        (tmp_path / "targets.txt").write_text(written(cell.board_poses(flange)))
 
     return write
 
@@ -259,8 +259,8 @@ def test_what_cannot_be_is_named_in_one_sentence(fault, seed, in_hand, way):
     flange = fault.flange(cell)
     with TemporaryDirectory() as folder, redirect_stderr(StringIO()) as stderr:
         poses, targets = Path(folder, "poses.txt"), Path(folder, "targets.txt")
-        poses.write_text(written(fault.change(cell.said(flange)), way))
-        targets.write_text(written(cell.seen(flange)))
+        poses.write_text(written(fault.change(cell.reported(flange)), way))
+        targets.write_text(written(cell.board_poses(flange)))
         inputs = ["--poses", str(poses), "--convention", way, "--targets", str(targets)]
         where = ["--target-convention", "ros", "--camera", SIDES[in_hand != fault.otherwise]]
         out = ["--out", str(Path(folder, "out"))]
@@ -296,10 +296,10 @@ def test_pictures(in_hand, tmp_path, monkeypatch, capsys):
     cell = HandEyeCell(10, in_hand)
     flange = cell.flange(12)
     (tmp_path / "pictures").mkdir()
-    for number, pose in enumerate(cell.seen(flange), 1):
+    for number, pose in enumerate(cell.board_poses(flange), 1):
         cv2.imwrite(str(tmp_path / f"pictures/{number}.png"), cell.draw(pose))
     (tmp_path / "board.toml").write_text(cell.board.described())
-    (tmp_path / "poses.txt").write_text(written(cell.said(flange), "kuka"))
+    (tmp_path / "poses.txt").write_text(written(cell.reported(flange), "kuka"))
     inputs = ["--poses", "poses.txt", "--convention", "kuka", "--pictures", "pictures"]
     where = ["--board", "board.toml", "--camera", SIDES[in_hand], "--out", "out"]
     assert main(["calibrate", *inputs, *where]) == DONE
@@ -322,7 +322,7 @@ def test_pictures(in_hand, tmp_path, monkeypatch, capsys):
     proposed = read_poses("next.csv").poses
     assert len(proposed) == 6
     for pose in proposed:
-        board = cell.seen(pose)
+        board = cell.board_poses(pose)
         middle = board[:3, :3] @ cell.board.points.mean(axis=0) + board[:3, 3]
         assert board[:3, 2] @ middle / np.linalg.norm(middle) > np.cos(np.radians(45))
         pixels, _ = projected(cell.board.points, cell.lens, board)
