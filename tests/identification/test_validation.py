@@ -60,7 +60,7 @@ def test_what_is_said_holds_for_fresh_rows_and_one_grossly_off_does_not_count(re
 
 
 def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
-    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)  # what is chosen is asked here
+    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)  # the choice alone matters
     real = Real(ur10, 7)
     joints = real.postures(ROWS)
     observations = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))

@@ -81,7 +81,7 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, messag
 )
 @pytest.mark.parametrize("deviations", [-4.0, 2.9])
 def test_what_wear_does_not_do_is_doubted_by_name(name, message, deviations):
-    names = [its.name for its in parameters_of(MODEL, result({}).geometry.estimate)]
+    names = [parameter.name for parameter in parameters_of(MODEL, result({}).geometry.estimate)]
     parameters = np.zeros(len(names))
     number = names.index(name)
     parameters[number] = deviations * MODEL.deviations[number]

@@ -89,7 +89,7 @@ def test_it_can_be_watched(session):
     (errors,) = (shown[name] for name in shown if "/predicted Scalars" in name)
     assert len(np.concatenate(errors)) == len(session.rows) - 9
     assert np.concatenate(errors)[-1] == pytest.approx(1e3 * session.running.error(session.rows))
-    # in the base, where the target is as far from the tool in all postures, but for what is off
+    # in the base, where the target is as far from the tool in all postures, but for its errors
     measured = np.concatenate(shown["/measured Points3D:positions"])
     measured = measured.reshape(-1, 3)[-len(session.rows) :]
     tool = session.station.arm.forward(session.rows.joints)[:, :3, 3]
