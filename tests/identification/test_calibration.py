@@ -62,7 +62,7 @@ def test_a_restored_calibration_knows_which_joints_were_held(robot, geared):
     calibration = calibrate(robot.arm, (held(OFFSETS, last),), geared)
     again = Calibration.restore(robot.arm, calibration.state())
     assert np.array_equal(again.model.deviations, calibration.model.deviations)
-    older = {name: its for name, its in calibration.state().items() if name != "deviations"}
+    older = {name: value for name, value in calibration.state().items() if name != "deviations"}
     assert np.array_equal(
         Calibration.restore(robot.arm, older).forward(geared.joints),
         calibration.forward(geared.joints),

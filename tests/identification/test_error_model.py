@@ -33,11 +33,11 @@ def test_jacobians_agree_with_finite_differences(name, at_nominal, plan, load):
     for index, unit in enumerate(np.eye(len(parameters))):
         # central differences of the fourth order; torques make the column of the compliance large
         step = 1e-3 / max(1, np.abs(jacobians[..., index]).max())
-        near, far = (
+        narrow, wide = (
             _turn(*(model.predict(parameters + sign * d * unit, angles) for sign in (-1, 1)))
             for d in (step, 2 * step)
         )
-        assert np.allclose(jacobians[..., index], (8 * near - far) / (12 * step), atol=1e-6)
+        assert np.allclose(jacobians[..., index], (8 * narrow - wide) / (12 * step), atol=1e-6)
 
 
 def _turn(start: np.ndarray, end: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""What is said of an arm holds for postures that nobody measured."""
+"""Reported errors hold for postures that nobody measured."""
 
 import numpy as np
 import pytest
@@ -14,8 +14,8 @@ GEARS, HELD_BACK = np.radians(0.03), 400
 
 @pytest.mark.parametrize("name", ARMS)
 def test_what_is_said_holds_where_a_posture_has_three_targets(name):
-    """From 60 postures a mean error is known to 9 %, whatever the folds: the luck of its postures
-    alone would put one arm in twenty off by 20 %. That folds learn from fewer rows adds 5 %.
+    """From 60 postures a mean error is known to 9 %, whatever the folds: by the choice of postures
+    alone, one arm in twenty would be off by 20 %. Folds learn from fewer rows, which adds 5 %.
     """
     arm = load_arm(*ARMS[name])
     real = Real(arm, 0, targets=3, gears=GEARS)
@@ -23,8 +23,8 @@ def test_what_is_said_holds_where_a_posture_has_three_targets(name):
     found = validate(arm, known, initial_frames(arm, known))
     assert len(found.postures) == 150
     for kind in (GEOMETRIC, HYBRID):
-        said = found.errors(RANDOM, kind)[found.counted, 0].mean()
-        assert said == pytest.approx(distances(found.full[kind], fresh).mean(), rel=0.2)
+        reported = found.errors(RANDOM, kind)[found.counted, 0].mean()
+        assert reported == pytest.approx(distances(found.full[kind], fresh).mean(), rel=0.2)
 
 
 def other_half(arm, seed: int) -> float:

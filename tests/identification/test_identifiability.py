@@ -13,7 +13,7 @@ from tests.identification.real import Real, geometry_of
 BASE, OFFSET, TARGET = range(6), 48, 42  # numbers of the Panda's parameters
 
 
-def found(arm, hold=None, positions=False):
+def unidentifiable_of(arm, hold=None, positions=False):
     real = Real(arm, 1)
     joints = real.postures(40)
     if hold is not None:
@@ -25,8 +25,8 @@ def found(arm, hold=None, positions=False):
 
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
 def test_an_arm_of_turning_joints_has_four_parameters_a_joint_and_six_at_its_ends(panda, positions):
-    open_ones = found(panda, positions=positions)
-    # without orientations three are held, of how the target is turned, and three are not told
+    open_ones = unidentifiable_of(panda, positions=positions)
+    # without orientations, three of the target's rotation are held and three are unidentifiable
     assert len(open_ones) == 8 * 6 + 7 - (4 * 7 + 6)
     assert all(one.lasting for one in open_ones)
 
@@ -34,7 +34,7 @@ def test_an_arm_of_turning_joints_has_four_parameters_a_joint_and_six_at_its_end
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
 @pytest.mark.parametrize("text", [INDUSTRIAL, RAILED], ids=["industrial", "on a rail"])
 def test_what_goes_along_an_axis_no_posture_tells_however_links_are_bent(load, text, positions):
-    open_ones = found(load(text), positions=positions)
+    open_ones = unidentifiable_of(load(text), positions=positions)
     assert all(one.lasting for one in open_ones)
     slides = text.count("prismatic")  # of which an axis has a direction and no place
     turns = text.count("revolute")
@@ -42,12 +42,12 @@ def test_what_goes_along_an_axis_no_posture_tells_however_links_are_bent(load, t
 
 
 def test_offsets_of_the_first_and_last_joint_are_moves_of_what_stands_beside_them(panda):
-    open_ones = found(panda)
+    open_ones = unidentifiable_of(panda)
     (last,) = [one for one in open_ones if one.parameter == OFFSET + 6]
     assert last == Unidentifiable(OFFSET + 6, (TARGET + 5,), True)
     (first,) = [one for one in open_ones if one.parameter == OFFSET]
     assert set(first.partners) <= {*BASE}
-    by_data = [one for one in found(panda, hold=3) if not one.lasting]
+    by_data = [one for one in unidentifiable_of(panda, hold=3) if not one.lasting]
     assert len(by_data) >= 2
     assert not [one for one in open_ones if not one.lasting], "unless a joint never moved"
 
@@ -108,8 +108,8 @@ def test_the_length_of_a_tool_that_is_always_upright_stays_as_given(load, positi
     found = Calibration(model, identify(model, observations))
     wear = found.estimate.parameters / model.deviations
     assert np.abs(wear[~model.free]).max() < 1.5
-    open_now = [its for its in unidentifiable_parameters(found, observations) if not its.lasting]
-    assert open_now, "other postures would tell, and that is said"
+    open_now = [one for one in unidentifiable_parameters(found, observations) if not one.lasting]
+    assert open_now, "other postures would determine them"
     gaps = found.predict(others) - poses(others, (0, 0))
     assert np.linalg.norm(gaps[:, :3, 3], axis=1).mean() < LIMIT
 

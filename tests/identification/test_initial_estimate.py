@@ -99,12 +99,12 @@ def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_abou
     base[:3, :3], target[:3, :3] = turns[0].as_matrix(), turns[1].as_matrix()
     tool[:, :3, 3] = random.uniform(-1, 1, (12, 3))
 
-    def told(turned: Rotation) -> list[np.ndarray]:
-        tool[:, :3, :3] = turned.as_matrix()
+    def base_turns(tool_turns: Rotation) -> list[np.ndarray]:
+        tool[:, :3, :3] = tool_turns.as_matrix()
         return turns_by_poses(tool, Observations(np.zeros((12, 6)), base @ tool @ target))
 
-    np.testing.assert_allclose(told(turns), [base[:3, :3]], atol=1e-12)
-    assert told(Rotation.from_rotvec(random.uniform(-3, 3, (12, 1)) * [0, 0, 1])) == []
+    np.testing.assert_allclose(base_turns(turns), [base[:3, :3]], atol=1e-12)
+    assert base_turns(Rotation.from_rotvec(random.uniform(-3, 3, (12, 1)) * [0, 0, 1])) == []
 
 
 def test_positions_in_a_plane_tell_how_the_instrument_stands():
@@ -152,7 +152,7 @@ def test_joints_that_slide_are_identified(text, what, load):
     found = identify(model, observations)
     assert found.converged
     nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), observations)
-    after, before = (real.error(partial(model.predict, its.parameters)) for its in (found, nominal))
+    after, before = (real.error(partial(model.predict, fit.parameters)) for fit in (found, nominal))
     assert after < 4e-4 and before > 3 * after
 
 
@@ -179,7 +179,7 @@ def test_what_a_joint_or_an_arm_cannot_have_is_held_at_zero(load):
 
 @pytest.fixture(scope="module")
 def balls(panda):
-    """Of a Panda: what joint angles alone tell, and before and after [m] with frames aligned."""
+    """Joints and sockets of a Panda, its error [m] before, and a function for that after."""
     real = Real(panda, 1)
     joints = np.concatenate([real.touching(BALL, socket, 40) for socket in SOCKETS])
     fresh = real.postures(100)
@@ -195,8 +195,8 @@ def balls(panda):
 
 def test_a_ball_in_two_sockets_identifies_an_arm_without_any_instrument(balls):
     joints, sockets, before, after = balls
-    left, found = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.3)]))
-    assert before > 20 * left
+    error, found = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.3)]))
+    assert before > 20 * error
     one, other = found.frames.sockets
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=2e-4)
     assert found.estimate.noise == pytest.approx([1e-4], rel=0.3)
@@ -204,5 +204,5 @@ def test_a_ball_in_two_sockets_identifies_an_arm_without_any_instrument(balls):
 
 def test_the_known_distance_sets_the_scale(balls):
     joints, sockets, _, after = balls
-    left, _ = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.303)]))
-    assert left > 1e-3
+    error, _ = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.303)]))
+    assert error > 1e-3

@@ -50,8 +50,8 @@ def test_where_geometry_alone_is_wrong_geometry_alone_is_used(robot, controller,
 def test_where_more_is_wrong_the_model_that_says_it_is_used(robot, controller):
     angles = postures(controller, 24)
     bent = apply(robot, [Sag(joint, 1e-4) for joint in robot.joints])
-    seen = Observations(angles, noisy(bent, angles, 1))
-    found = calibrate(robot.arm, (OFFSETS, JOINT_ERRORS), seen)
+    observations = Observations(angles, noisy(bent, angles, 1))
+    found = calibrate(robot.arm, (OFFSETS, JOINT_ERRORS), observations)
     assert len(found.model.names) == len(JOINT_ERRORS)
     compliance = found.model.coefficients(found.estimate.parameters)["compliance"]
     assert compliance[1:3] == pytest.approx([-1e-4] * 2, rel=0.1)
@@ -107,8 +107,8 @@ def test_every_parameter_has_a_name_of_its_own(robot):
     size = len(model.deviations)
     estimate = Identification(np.zeros(size), np.eye(size), np.ones(1), np.ones(1), 0.0, True)
     named = parameters_of(model, estimate, ("red", "blue"))
-    assert len({its.name for its in named}) == size
-    by_name = {its.name: its.unit for its in named}
+    assert len({parameter.name for parameter in named}) == size
+    by_name = {parameter.name: parameter.unit for parameter in named}
     assert by_name["turn z of target blue"] == "deg" and by_name["sine 3 of wrist_1_joint"] == "deg"
     assert by_name["compliance of elbow_joint"] == "deg/Nm"
     assert next(name for name in by_name if "socket 1" in name).startswith("x of socket 1")

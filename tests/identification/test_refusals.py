@@ -39,7 +39,7 @@ def spoilt(values, bad):
 
 
 ROTATION = r"measurement 0 .*a rotation and a position, above"
-WRONG = {  # what becomes of joints and poses, and what is said
+WRONG = {  # a change of joints and poses, and the message
     "none": (lambda q, p: (q[:0], p[:0]), r"observations measured \(0\); expected: one or more"),
     "far joints": (lambda q, p: (spoilt(q, 14), p), r"angles of measurement 7 .*up to 12.6 \(rad"),
     "no joint": (lambda q, p: (spoilt(q, np.nan), p), r"joint angles of measurement 7 .*12\.6 \(r"),
@@ -53,14 +53,14 @@ WRONG = {  # what becomes of joints and poses, and what is said
 }
 
 
-@pytest.mark.parametrize(("spoil", "said"), WRONG.values(), ids=WRONG)
-def test_rows_that_are_no_observations(spoil, said, good, model):
-    with pytest.raises(BadMeasurement, match=said):
+@pytest.mark.parametrize(("spoil", "message"), WRONG.values(), ids=WRONG)
+def test_rows_that_are_no_observations(spoil, message, good, model):
+    with pytest.raises(BadMeasurement, match=message):
         identify(model, Observations(*spoil(good.joints, good.measured)))
 
 
 @pytest.mark.parametrize(
-    ("measured", "said"),
+    ("measured", "message"),
     [
         (np.outer(np.arange(30.0), [0.1, 0.2, 0.3]), "the targets lie along a line, so the instr"),
         (
@@ -70,8 +70,8 @@ def test_rows_that_are_no_observations(spoil, said, good, model):
     ],
     ids=["a line", "noise"],
 )
-def test_positions_that_place_no_instrument(measured, said, good, ur10):
-    with pytest.raises(RecalibError, match=said):
+def test_positions_that_place_no_instrument(measured, message, good, ur10):
+    with pytest.raises(RecalibError, match=message):
         initial_frames(ur10, Observations(good.joints, measured))
 
 
@@ -96,7 +96,7 @@ def test_nine_postures():
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         ({"converged": False}, "the identification of the geometry did not converge"),
         (
@@ -105,22 +105,22 @@ def test_nine_postures():
         ),
     ],
 )
-def test_an_estimate_that_says_little(change, said, good, model, ur10):
-    seen = Observations(good.joints, ur10.forward(good.joints))
-    calibration = Calibration(model, replace(identify(model, seen), **change))
-    with pytest.raises(RecalibError, match=said):
+def test_an_estimate_that_says_little(change, message, good, model, ur10):
+    observations = Observations(good.joints, ur10.forward(good.joints))
+    calibration = Calibration(model, replace(identify(model, observations), **change))
+    with pytest.raises(RecalibError, match=message):
         check_estimate(calibration, good)
 
 
-def slid(arm, far: float):
+def slid(arm, reach: float):
     """The same arm, with other origins on all axes, and anywhere for a joint that slides [m]."""
     other, random = arm.copy(), np.random.default_rng(3)
     placements = other.model.jointPlacements
     for joint in range(1, len(arm.joints)):  # after the first: what is before it is the base's
-        way = random.uniform(-far, far, 3 if arm.slides[joint] else 1) * arm.axes[joint]
-        placements[joint + 1] = placements[joint + 1] * pin.SE3(np.eye(3), way)
+        shift = random.uniform(-reach, reach, 3 if arm.slides[joint] else 1) * arm.axes[joint]
+        placements[joint + 1] = placements[joint + 1] * pin.SE3(np.eye(3), shift)
         if joint + 2 <= len(arm.joints):
-            placements[joint + 2] = pin.SE3(np.eye(3), -way) * placements[joint + 2]
+            placements[joint + 2] = pin.SE3(np.eye(3), -shift) * placements[joint + 2]
     return other
 
 

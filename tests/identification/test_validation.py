@@ -44,9 +44,9 @@ def validation(ur10, real):
 def test_what_is_said_holds_for_fresh_rows_and_one_grossly_off_does_not_count(real, validation):
     assert validation.chosen == GEOMETRIC
     errors = distances(validation.calibration, real.observe(200))
-    said = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
-    assert said.mean() == pytest.approx(errors.mean(), rel=0.2)
-    assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * said.mean()
+    reported = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
+    assert reported.mean() == pytest.approx(errors.mean(), rel=0.2)
+    assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * reported.mean()
     assert np.mean(errors <= validation.radius) >= 0.9
     assert 0.9 <= validation.coverage(RANDOM) <= 0.98
     for way in WAYS:
@@ -60,7 +60,7 @@ def test_what_is_said_holds_for_fresh_rows_and_one_grossly_off_does_not_count(re
 
 
 def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
-    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)  # what is chosen is asked here
+    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)  # the choice alone matters
     real = Real(ur10, 7)
     joints = real.postures(ROWS)
     observations = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))
@@ -68,11 +68,12 @@ def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
     found = validate(ur10, observations, frames)
     assert found.chosen == HYBRID and not found.unsettled
 
-    def stopped(*given):
-        geometry, *richer = calibrations(*given)
-        estimates = [replace(its.estimate, converged=False) for its in richer]
-        pairs = zip(richer, estimates, strict=True)
-        return [geometry, *(replace(its, estimate=estimate) for its, estimate in pairs)]
+    def unconverged(calibration):
+        return replace(calibration, estimate=replace(calibration.estimate, converged=False))
+
+    def stopped(*arguments):
+        geometry, *richer = calibrations(*arguments)
+        return [geometry, *map(unconverged, richer)]
 
     calibrations = module.calibrations
     monkeypatch.setattr(module, "calibrations", stopped)
@@ -157,10 +158,10 @@ def test_an_arm_without_errors_is_left_alone(ur10, noise):
 def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(ur10):
     real = Real(ur10, 5)
     observations = real.observe(30)
-    towards = real.random.standard_normal((30, 3))
-    towards *= 0.05 / np.linalg.norm(towards, axis=1, keepdims=True)
-    towards[11] *= 2  # too little for a lower weight
-    observations.measured[:, :3, 3] += towards
+    shifts = real.random.standard_normal((30, 3))
+    shifts *= 0.05 / np.linalg.norm(shifts, axis=1, keepdims=True)
+    shifts[11] *= 2  # too little for a lower weight
+    observations.measured[:, :3, 3] += shifts
     with pytest.raises(
         Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows 12, ([0-9]+, ){3}"
     ):

@@ -41,12 +41,12 @@ DISTANCE = '[[distance]]\nsockets = ["{}", "right"]\nlength = "{} mm"\n'
 
 @pytest.fixture(scope="module")
 def table(arm, folder):
-    """What an instrument at x = 1 m saw, and where the nominal arm would have been."""
+    """Positions measured by an instrument at x = 1 m, and those of the nominal arm."""
     joints = postures(12)
-    seen, nominal = (arm.forward(its) @ POINT - [1, 0, 0, 0] for its in (joints + OFFSETS, joints))
-    seen[:, :3] += NOISE * np.random.default_rng(13).standard_normal((ROWS, 3))
+    observed, nominal = (arm.forward(q) @ POINT - [1, 0, 0, 0] for q in (joints + OFFSETS, joints))
+    observed[:, :3] += NOISE * np.random.default_rng(13).standard_normal((ROWS, 3))
     columns = in_degrees(arm, joints)
-    columns |= {f"{axis} [m]": seen[:, index] for index, axis in enumerate("xyz")}
+    columns |= {f"{axis} [m]": observed[:, index] for index, axis in enumerate("xyz")}
     write(folder / "known.csv", columns)
     columns |= {f"{axis}_nominal [m]": nominal[:, index] for index, axis in enumerate("xyz")}
     write(folder / "nominal.csv", columns)
@@ -55,13 +55,13 @@ def table(arm, folder):
 
 def calibrated_with(text: str, table) -> Calibrated:
     """The small arm."""
-    (path := table.parent / "said.toml").write_text(text)
+    (path := table.parent / "description.toml").write_text(text)
     return calibrate_arm(table.parent / "arm.urdf", table, path)
 
 
 def by_ball(text: str, table) -> Calibrated:
     """The Panda."""
-    (path := table.parent / "said.toml").write_text(text)
+    (path := table.parent / "description.toml").write_text(text)
     return calibrate_arm("panda.urdf", table, path, tool="panda_hand_tcp")
 
 
@@ -81,8 +81,8 @@ def test_one_frame_alone_may_be_known(known, table):
     assert result.worthwhile
     unknown = result.frames.base_unknown, result.frames.targets_unknown
     assert unknown == (known == TARGET, known == INSTRUMENT)
-    told = result.offset
-    assert "a tool point at (0, 0, 50) mm" in told and "the base moved by (-1000, 0, 0) mm" in told
+    assert "a tool point at (0, 0, 50) mm" in result.offset
+    assert "the base moved by (-1000, 0, 0) mm" in result.offset
     frames = result.calibration.frames
     assert np.allclose(frames.base[:3, 3], [-1, 0, 0], atol=0.02)
     assert np.allclose(frames.targets[0, :3, 3], POINT[:3], atol=0.02)
@@ -94,7 +94,7 @@ INVERTED = INSTRUMENT.replace('"1 m"', '"-1 m"')
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         (TURNED + TARGET, r"\[instrument\] is \d\d mm and 9\d deg .* position = \[\"999 mm\", "),
         (INVERTED + TARGET, r"\[instrument\] is 1999 mm and 1 deg from its estimate"),
@@ -105,8 +105,8 @@ INVERTED = INSTRUMENT.replace('"1 m"', '"-1 m"')
     ],
     ids=["turned", "inverted", "target", "instrument alone", "target alone", "both"],
 )
-def test_a_frame_that_is_not_there_is_named(text, said, table):
-    with pytest.raises(WrongKnowledge, match=rf"the description's .*{said}"):
+def test_a_frame_that_is_not_there_is_named(text, message, table):
+    with pytest.raises(WrongKnowledge, match=rf"the description's .*{message}"):
         calibrated_with(text, table)
 
 
@@ -131,9 +131,9 @@ def test_a_range_beyond_the_limits_of_the_urdf_is_told(folder, calibrated):
     """The table's unit or zero may be another, and no command goes there."""
     narrow = folder / "narrow.urdf"
     narrow.write_text((folder / "arm.urdf").read_text().replace('upper="2"', 'upper="0"', 1))
-    told = summary(calibrate_arm(narrow, folder / "measurements.csv"))
-    assert re.search(r"swing was .*, beyond its limits in the URDF, -114.6 to 0.0\n", told)
-    assert told.count("beyond its limits") == 1
+    text = summary(calibrate_arm(narrow, folder / "measurements.csv"))
+    assert re.search(r"swing was .*, beyond its limits in the URDF, -114.6 to 0.0\n", text)
+    assert text.count("beyond its limits") == 1
 
 
 def test_how_high_a_scara_stands_is_told_to_be_unknown(load, tmp_path):
@@ -143,16 +143,16 @@ def test_how_high_a_scara_stands_is_told_to_be_unknown(load, tmp_path):
     positions = arm.forward(joints + np.array([0.01, 0.02, 0.003, -0.02]))[:, :3, 3]
     columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
     columns["quill [m]"] = columns.pop("quill [rad]")
-    write(tmp_path / "seen.csv", columns | in_millimetres(to_instrument(positions)))
-    result = calibrate_arm(tmp_path / "scara.urdf", tmp_path / "seen.csv")
-    told = "not identifiable from any posture: shift z of target or shift z of base; try: describe"
-    assert f"{told} [target]\n" in summary(result)
+    write(tmp_path / "measured.csv", columns | in_millimetres(to_instrument(positions)))
+    result = calibrate_arm(tmp_path / "scara.urdf", tmp_path / "measured.csv")
+    line = "not identifiable from any posture: shift z of target or shift z of base; try: describe"
+    assert f"{line} [target]\n" in summary(result)
     assert abs(result.places[1].pose[2, 3]) < 0.01
 
 
 def test_a_distance_of_another_scale_is_doubted(in_sockets):
-    told = summary(by_ball(DISTANCE.format("left", 270), in_sockets))
-    assert "the distance between left and right is 11.1 percent larger than its descr" in told
+    text = summary(by_ball(DISTANCE.format("left", 270), in_sockets))
+    assert "the distance between left and right is 11.1 percent larger than its descr" in text
 
 
 def test_balls_in_sockets_of_the_wrong_names_are_refused(in_sockets):
@@ -179,7 +179,7 @@ def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
 
 
 @pytest.mark.parametrize(
-    ("text", "error", "said"),
+    ("text", "error", "message"),
     [
         (INSTRUMENT, InvalidFile, "has an instrument; a ball in sockets needs none"),
         (DISTANCE.format("middle", 300), InvalidFile, "names socket 'middle'; the table has left"),
@@ -191,8 +191,8 @@ def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
     ],
     ids=["instrument", "no socket", "another arm"],
 )
-def test_what_is_wrong_of_sockets_is_named(text, error, said, in_sockets):
-    with pytest.raises(error, match=said):
+def test_what_is_wrong_of_sockets_is_named(text, error, message, in_sockets):
+    with pytest.raises(error, match=message):
         by_ball(text, in_sockets)
 
 
@@ -209,7 +209,7 @@ def calibrated(arm, folder, text: str, part: float = 1.0):
 
 
 def of_instrument(shift: float, turn: float, within: str = "") -> str:
-    """Its pose, off by so much [mm, deg] along and about each axis."""
+    """A description with the instrument's pose, off by this along and about each axis [mm, deg]."""
     angles = Rotation.from_matrix(STAND[:3, :3]).as_euler("xyz", degrees=True) + turn
     millimetres = 1e3 * STAND[:3, 3] + shift
     lengths = [f"{number:.6f} mm{within and ' +- 3 mm'}" for number in millimetres]
@@ -218,8 +218,8 @@ def of_instrument(shift: float, turn: float, within: str = "") -> str:
 
 
 def gap(result) -> float:
-    """How far [mm] the instrument that is found is from where it is."""
-    (place,) = [its for its in result.places if its.name == "the instrument"]
+    """Distance [mm] of the identified instrument from where it is."""
+    (place,) = [place for place in result.places if place.name == "the instrument"]
     return 1e3 * float(np.linalg.norm(place.pose[:3, 3] - STAND[:3, 3]))
 
 
@@ -249,7 +249,7 @@ def test_what_is_stated_of_wear_bounds_what_rows_do_not_determine(arm, folder):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ('[target]\nposition = ["0 mm +- 0 mm", "0 mm", "0 mm"]', "expected: more than zero"),
         ('[target]\nposition = ["0 mm +- two", "0 mm", "0 mm"]', "expected: a length in mm"),
@@ -258,7 +258,7 @@ def test_what_is_stated_of_wear_bounds_what_rows_do_not_determine(arm, folder):
         ('[wear]\ngears = "2 mm"', "expected: encoders = "),
     ],
 )
-def test_what_is_no_deviation_is_refused(text, said, tmp_path):
+def test_what_is_no_deviation_is_refused(text, message, tmp_path):
     (tmp_path / "known.toml").write_text(text)
-    with pytest.raises(InvalidFile, match=said):
+    with pytest.raises(InvalidFile, match=message):
         read_description(tmp_path / "known.toml")

@@ -51,8 +51,8 @@ def test_a_calibration_is_a_folder_of_files_that_tell_one_story(calibrated):
     decided = [row["name"] for row in values["parameters"] if row["decided_by"] == "data"]
     assert 9 < len(decided) <= 4 * 3 + 3
     page = (calibrated / "page.html").read_text()
-    told = page.replace("\n", " ")
-    assert f"{len(decided)} of the {len(values['parameters'])} parameters" in told
+    text = page.replace("\n", " ")
+    assert f"{len(decided)} of the {len(values['parameters'])} parameters" in text
     assert page.count("<svg") == 3
     assert "<script" not in page and "<link" not in page and 'src="http' not in page
 
@@ -63,10 +63,10 @@ def test_commands_take_the_calibrated_arm_to_what_is_desired(calibrated, arm, fo
     write(folder / "desired.csv", in_millimetres(goals))
     out = folder / "commands.csv"
     assert main(["correct", str(calibrated), str(folder / "desired.csv"), f"--out={out}"]) == DONE
-    sent = read(out)
-    commanded = angles_in(sent, arm)
+    columns = read(out)
+    commanded = angles_in(columns, arm)
     assert np.allclose(commanded, joints, atol=1e-6)
-    fake = 1e-3 * np.array([sent[f"{axis}_fake [mm]"] for axis in "xyz"]).T
+    fake = 1e-3 * np.array([columns[f"{axis}_fake [mm]"] for axis in "xyz"]).T
     assert np.allclose(fake, arm.forward(commanded)[:, :3, 3], atol=1e-9)
     printed = capsys.readouterr()
     assert "leave the measured range" not in printed.err
@@ -89,8 +89,8 @@ def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_
     desired, out = str(folder / "seen.csv"), folder / "seen_commands.csv"
     arguments = ["correct", str(calibrated / "correction.npz"), desired, f"--out={out}"]
     assert main(arguments) == DONE
-    sent = read(out)
-    commanded = angles_in(sent, arm)
+    columns = read(out)
+    commanded = angles_in(columns, arm)
     reached = to_instrument(true_positions(arm, commanded))
     assert np.abs(reached - goals).max() < 6 * NOISE
     assert "not identifiable" not in capsys.readouterr().err
@@ -104,8 +104,8 @@ def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_
     write(folder / "joints.csv", in_degrees(arm, postures(3)))
     arguments[2] = str(folder / "joints.csv")
     assert main(arguments) == REFUSED
-    told = capsys.readouterr().err
-    assert "joints.csv: joints alone mean poses in the arm's base, which the" in told
+    text = capsys.readouterr().err
+    assert "joints.csv: joints alone mean poses in the arm's base, which the" in text
     assert not (folder / "no.csv").exists()
 
 
@@ -151,15 +151,15 @@ def test_beyond_what_was_learned_it_warns(in_base, folder, capsys):
     write(folder / "far.csv", last)
     out = folder / "far_commands.csv"
     assert main(["correct", str(in_base), str(folder / "far.csv"), f"--out={out}"]) == DONE
-    said = capsys.readouterr()
-    assert "1 of 1 command leaves the measured range of swing; the farthest is row 1" in said.err
-    assert said.out.startswith("1 command in ")
+    printed = capsys.readouterr()
+    assert "1 of 1 command leaves the measured range of swing; the farthest is row 1" in printed.err
+    assert printed.out.startswith("1 command in ")
     write(folder / "wide.csv", columns)
     out = folder / "wide_commands.csv"
     assert main(["correct", str(in_base), str(folder / "wide.csv"), f"--out={out}"]) == DONE
-    told = capsys.readouterr().err
-    assert "2 of 3 commands leave the measured range of swing; the farthest is row 3" in told
-    beyond, low, high = re.search(r", with swing (.*) deg beyond (.*) to (.*) deg\n", told).groups()
+    text = capsys.readouterr().err
+    assert "2 of 3 commands leave the measured range of swing; the farthest is row 3" in text
+    beyond, low, high = re.search(r", with swing (.*) deg beyond (.*) to (.*) deg\n", text).groups()
     assert -52 < float(low) < -40 < 40 < float(high)
     assert float(beyond) == pytest.approx(100 - float(high), abs=3)
 
@@ -209,8 +209,8 @@ def test_a_parked_joint_is_held_at_any_angle_and_named(angle, tmp_path, capsys):
     arguments = ["ur10_robot.urdf", f"{tmp_path}/rows.csv", "--tool=tool0", f"--out={tmp_path}/out"]
     assert main(["calibrate", *arguments]) == DONE
     at = f"{np.degrees(angle):.1f} deg"
-    said = f"shoulder_pan_joint stood still at {at}: its own errors are not identifiable"
-    assert said in capsys.readouterr().out.splitlines()
+    expected = f"shoulder_pan_joint stood still at {at}: its own errors are not identifiable"
+    assert expected in capsys.readouterr().out.splitlines()
     values = json.loads((tmp_path / "out" / "parameters.json").read_text())
     values = [row["value"] for row in values["parameters"] if row["name"].startswith("offset of ")]
     assert abs(values[0]) < 1e-9 < 1e-2 < np.abs(values[1:]).max()
@@ -223,9 +223,9 @@ def test_a_calibration_writes_nothing_at_home_and_leaves_nothing_temporary(calib
     temporary.mkdir()
     own = {"HOME": str(home), "TMPDIR": str(temporary)}
     elsewhere = {CACHE, "XDG_CACHE_HOME", "XDG_CONFIG_HOME"}
-    kept = {name: value for name, value in os.environ.items() if name not in elsewhere}
+    inherited = {name: value for name, value in os.environ.items() if name not in elsewhere}
     files = [str(calibrated.parent / name) for name in ("arm.urdf", "measurements.csv")]
     command = [sys.executable, "-m", "recalib", "calibrate", *files, f"--out={out}"]
-    subprocess.run(command, env=kept | own, check=True, capture_output=True)
+    subprocess.run(command, env=inherited | own, check=True, capture_output=True)
     assert (out / "page.html").exists()
     assert not [*home.rglob("*"), *temporary.rglob("*")]

@@ -40,8 +40,8 @@ def correction():
     arm = load_arm("panda.urdf", "panda_hand_tcp")
     joints = HOME + np.random.default_rng(6).uniform(-0.6, 0.6, (60, 7))
     bent = joints + 0.01 + 0.004 * np.sin(joints)
-    seen = Observations(joints, arm.forward(bent))
-    calibration = calibrate(arm, (OFFSETS, JOINT_ERRORS), seen)
+    observations = Observations(joints, arm.forward(bent))
+    calibration = calibrate(arm, (OFFSETS, JOINT_ERRORS), observations)
     return Correction(find_urdf("panda.urdf").read_bytes(), calibration, joints)
 
 
@@ -57,11 +57,11 @@ def test_a_urdf_may_be_in_another_encoding(correction, tmp_path):
 def test_a_redundant_arm_stays_near_the_posture_that_is_given(correction):
     joints = HOME + np.random.default_rng(7).uniform(-0.4, 0.4, (10, 7))
     goals = correction.calibration.forward(joints)
-    beside = joints + np.random.default_rng(8).uniform(-0.05, 0.05, joints.shape)
-    commands = correction.correct(goals, beside, frame="base")
+    nearby = joints + np.random.default_rng(8).uniform(-0.05, 0.05, joints.shape)
+    commands = correction.correct(goals, nearby, frame="base")
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - goals).max() < 1e-7
-    assert np.abs(commands.joints - beside).max() < 0.1
+    assert np.abs(commands.joints - nearby).max() < 0.1
     assert np.array_equal(commands.poses, correction.arm.forward(commands.joints))
 
 
@@ -69,8 +69,8 @@ def test_postures_from_which_the_arm_approaches_are_in_the_frame_given(correctio
     """A target 120 mm ahead of the tool link is then nearly where the link is desired."""
     arm, joints, target, ahead = correction.arm, correction.learned, np.eye(4), np.eye(4)
     target[2, 3], ahead[2, 3] = 0.12, 0.1
-    seen = Observations(joints, arm.forward(joints + 0.01) @ target)
-    calibration = calibrate(arm, (OFFSETS,), seen, Frames(np.eye(4), target[None]))
+    observations = Observations(joints, arm.forward(joints + 0.01) @ target)
+    calibration = calibrate(arm, (OFFSETS,), observations, Frames(np.eye(4), target[None]))
     before = joints[:10]
     goals = calibration.forward(before) @ ahead
     ahead_of_tool = replace(correction, calibration=calibration)
@@ -148,14 +148,14 @@ def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correctio
 
 
 SIGHTS = "calibration/frames/sights"
-WRONG_PARTS = {  # by what they are: a part of the file, and what becomes of it
-    "another error model": ("calibration/terms", lambda its: its[:-1]),
-    "no number": ("calibration/estimate/noise", lambda its: np.nan * its),
-    "no angles": ("learned", lambda its: its > 0),
-    "no sight": (SIGHTS, lambda its: its[:0]),
-    "another target": (SIGHTS, lambda its: its + 1),
-    "a target below zero": (SIGHTS, lambda its: its - 1),
-    "a target without a number": (SIGHTS, lambda its: 1.0 * its),
+WRONG_PARTS = {  # a part of the file, and how it is changed
+    "another error model": ("calibration/terms", lambda values: values[:-1]),
+    "no number": ("calibration/estimate/noise", lambda values: np.nan * values),
+    "no angles": ("learned", lambda values: values > 0),
+    "no sight": (SIGHTS, lambda values: values[:0]),
+    "another target": (SIGHTS, lambda values: values + 1),
+    "a target below zero": (SIGHTS, lambda values: values - 1),
+    "a target without a number": (SIGHTS, lambda values: 1.0 * values),
 }
 
 
@@ -192,10 +192,10 @@ def test_a_file_that_was_tampered_with_ends_in_a_sentence(small, data):
 
 @pytest.fixture(scope="module")
 def small(arm, folder):
-    """The file of a correction of a small arm, with a pattern in what is left."""
+    """The file of a correction of a small arm, with a pattern in the residuals."""
     joints = postures(3, 60)
-    seen = Observations(joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints)))
-    calibration = calibrate(arm, (OFFSETS,), seen)
+    observations = Observations(joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints)))
+    calibration = calibrate(arm, (OFFSETS,), observations)
     assert calibration.pattern is not None
     urdf = (folder / "arm.urdf").read_bytes()
     Correction(urdf, calibration, joints).save(folder / "small.npz")

@@ -81,10 +81,10 @@ def test_targets_and_sockets_are_named_also_in_what_is_desired(gantry, write):
 
 
 def test_what_was_measured_at_commands_may_stand_beside_their_fake_poses(gantry, write):
-    beside = write(joints() | positions() | {f"{axis}_fake [mm]": [1.0] * ROWS for axis in "xyz"})
-    assert np.allclose(read_measurements(beside, gantry).positions[-1], 0.002)
+    path = write(joints() | positions() | {f"{axis}_fake [mm]": [1.0] * ROWS for axis in "xyz"})
+    assert np.allclose(read_measurements(path, gantry).positions[-1], 0.002)
     with pytest.raises(InvalidFile, match="its commands are corrected already"):
-        read_desired(beside, gantry)
+        read_desired(path, gantry)
 
 
 def test_what_is_no_text_is_refused(gantry, tmp_path):
@@ -118,29 +118,30 @@ length = "250 mm"
 def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
     path = tmp_path / "description.toml"
     path.write_text(DESCRIPTION)
-    said = read_description(path)
-    assert np.allclose(said.instrument[:3], np.eye(3, 4) + [[0, 0, 0, x] for x in (1, -0.02, 7e-5)])
-    angles = Rotation.from_matrix(said.target[:3, :3]).as_euler("xyz")
+    description = read_description(path)
+    shifts = [[0, 0, 0, shift] for shift in (1, -0.02, 7e-5)]
+    assert np.allclose(description.instrument[:3], np.eye(3, 4) + shifts)
+    angles = Rotation.from_matrix(description.target[:3, :3]).as_euler("xyz")
     assert np.allclose(angles, [np.radians(10), -0.2, np.radians(30)])
-    assert np.array_equal(said.target[:3, 3], np.zeros(3))
-    assert said.distances == {("left", "right"): 0.25}
+    assert np.array_equal(description.target[:3, 3], np.zeros(3))
+    assert description.distances == {("left", "right"): 0.25}
     columns = dict(zip(("j1", "j2"), joints().values(), strict=True)) | {"step": range(ROWS)}
     columns |= {f"{axis}_t": range(ROWS) for axis in "xyz"}
     columns |= {f"{axis}_dif": [1] * ROWS for axis in "xyz"}
-    read = read_measurements(write(columns), gantry, said)
+    read = read_measurements(write(columns), gantry, description)
     assert np.allclose(read.joints[-1], [1.5, np.pi / 2])
     assert np.allclose(read.columns["nominal"], 1e-3 * np.arange(ROWS)[:, None])
     assert np.allclose(read.positions - read.columns["nominal"], 0.001)
     columns["j1"] = ["far"] * ROWS
     with pytest.raises(InvalidFile, match="row 1 of column 'j1' is 'far'"):
-        read_measurements(write(columns), gantry, said)
+        read_measurements(write(columns), gantry, description)
     every = Description(dict.fromkeys(columns, "ignored"))
     with pytest.raises(InvalidFile, match="its description ignores every column"):
         read_measurements(write(columns), gantry, every)
 
 
 @pytest.mark.parametrize(
-    ("column", "cells", "began"),
+    ("column", "cells", "start"),
     [
         ("time [s]", [f"{1.5 * row}" for row in range(ROWS)], 0),
         ("time [ms]", [1500 * row for row in range(ROWS)], 0),
@@ -148,7 +149,7 @@ def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
         ("time", [f"2026-11-23 08:00:{1.5 * row:06.3f}+01:00" for row in range(ROWS)], 1795417200),
     ],
 )
-def test_times_are_seconds_or_dates(column, cells, began, gantry, write):
+def test_times_are_seconds_or_dates(column, cells, start, gantry, write):
     read = read_measurements(write(joints() | positions() | {column: cells}), gantry)
     times = read.columns["times"]
-    assert np.allclose(times, began + 1.5 * np.arange(ROWS), rtol=0, atol=1e-6)
+    assert np.allclose(times, start + 1.5 * np.arange(ROWS), rtol=0, atol=1e-6)

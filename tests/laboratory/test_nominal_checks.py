@@ -42,9 +42,9 @@ def test_positions_of_the_nominal_arm_pass(arm, joints, nominal):
 
 
 def test_frames_that_nobody_knows_are_told_not_refused(arm, joints, nominal):
-    told = check_nominal(arm, joints, nominal @ turned(170)[:3, :3].T)
+    offset = check_nominal(arm, joints, nominal @ turned(170)[:3, :3].T)
     point = "a tool point at (0, 20, 120) mm of the tool link"
-    assert told == f"the base turned by 170.0 deg about (0, 0, 1) and {point}"
+    assert offset == f"the base turned by 170.0 deg about (0, 0, 1) and {point}"
 
 
 def changed(joints: np.ndarray, column: int, value) -> np.ndarray:
@@ -84,31 +84,31 @@ MISTAKES = {
 }
 
 
-@pytest.mark.parametrize(("spoil", "words"), MISTAKES.values(), ids=MISTAKES)
-def test_the_likely_mistake_is_named(spoil, words, arm, joints, nominal):
-    with pytest.raises(WrongNominal) as refused:
+@pytest.mark.parametrize(("spoil", "mistake"), MISTAKES.values(), ids=MISTAKES)
+def test_the_likely_mistake_is_named(spoil, mistake, arm, joints, nominal):
+    with pytest.raises(WrongNominal) as refusal:
         check_nominal(arm, *spoil(joints, nominal), np.eye(4), TOOL_POINT)
-    assert f"likely: {words}" in str(refused.value)
+    assert f"likely: {mistake}" in str(refusal.value)
 
 
 @pytest.mark.parametrize("name", [*[*MISTAKES][:6], "a left-handed frame"])
 def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
-    spoil, words = MISTAKES[name]
+    spoil, mistake = MISTAKES[name]
     real = Real(arm, 2)
     joints = real.postures(40)
-    seen = Observations(*spoil(joints, real.poses(joints)[:, :3, 3]))
-    with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
-        checked_frames(arm, seen)
+    observations = Observations(*spoil(joints, real.poses(joints)[:, :3, 3]))
+    with pytest.raises(NoInitialEstimate, match=f"; likely: {mistake}"):
+        checked_frames(arm, observations)
 
 
-@pytest.mark.parametrize(("factor", "words"), [(180 / np.pi, "degrees"), (np.pi / 180, "radians")])
-def test_where_a_joint_slides_the_unit_of_the_others_is_named(factor, words):
+@pytest.mark.parametrize(("factor", "unit"), [(180 / np.pi, "degrees"), (np.pi / 180, "radians")])
+def test_where_a_joint_slides_the_unit_of_the_others_is_named(factor, unit):
     arm = load_arm("tiago.urdf", "hand_tool_link")
     real = Real(arm, 2)
     joints = real.postures(40)
     poses = real.poses(joints)
     joints[:, ~arm.slides] *= factor
-    assert mistake_in(arm, Observations(joints, poses)).startswith(f"joint columns in {words}")
+    assert mistake_in(arm, Observations(joints, poses)).startswith(f"joint columns in {unit}")
 
 
 def test_the_rounding_of_a_perfect_arm_is_no_mistake(arm):
@@ -126,8 +126,8 @@ def test_what_closed_forms_alone_do_not_explain_is_no_mistake(seed):
     real = Real(arm, seed)
     joints = np.tile(Real(arm, seed).postures(1), (30, 1))
     joints[:, -3:] += np.random.default_rng(seed).uniform(-0.8, 0.8, (30, 3))
-    seen = Observations(joints, real.poses(joints)[:, :3, 3])
-    assert mistake_in(arm, seen, initial_frames(arm, seen)) is None
+    observations = Observations(joints, real.poses(joints)[:, :3, 3])
+    assert mistake_in(arm, observations, initial_frames(arm, observations)) is None
 
 
 def reread(poses: np.ndarray, change) -> np.ndarray:
@@ -138,32 +138,32 @@ def reread(poses: np.ndarray, change) -> np.ndarray:
 
 
 def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
-    right = lambda its: euler("xyz", [[0.2, np.pi / 2, 0.0]] * len(its))  # noqa: E731
+    right = lambda r: euler("xyz", [[0.2, np.pi / 2, 0.0]] * len(r))  # noqa: E731
     poses = reread(arm.forward(joints), right)
     assert likely_mistake(arm, joints, poses, most_steps=1) is None
 
 
-REREAD = {  # by the mistake, what becomes of rotations
-    "rotations of another frame or in another": lambda its: its[::-1],
-    "rotations of the instrument in the target's frame": lambda its: its.inv(),
-    "a quaternion in the order qw, qx, qy, qz": lambda its: Rotation.from_quat(
-        its.as_quat()[:, [3, 0, 1, 2]]
+REREAD = {  # by the mistake, a change of rotations r
+    "rotations of another frame or in another": lambda r: r[::-1],
+    "rotations of the instrument in the target's frame": lambda r: r.inv(),
+    "a quaternion in the order qw, qx, qy, qz": lambda r: Rotation.from_quat(
+        r.as_quat()[:, [3, 0, 1, 2]]
     ),
-    "roll, pitch and yaw about moving axes": lambda its: euler("xyz", its.as_euler("XYZ")),
-    "roll, pitch and yaw in radians labelled deg": lambda its: euler(
-        "xyz", np.radians(its.as_euler("xyz"))
+    "roll, pitch and yaw about moving axes": lambda r: euler("xyz", r.as_euler("XYZ")),
+    "roll, pitch and yaw in radians labelled deg": lambda r: euler(
+        "xyz", np.radians(r.as_euler("xyz"))
     ),
-    "a rotation vector in radians labelled deg": lambda its: Rotation.from_rotvec(
-        np.radians(its.as_rotvec())
+    "a rotation vector in radians labelled deg": lambda r: Rotation.from_rotvec(
+        np.radians(r.as_rotvec())
     ),
-    "roll, pitch and yaw in reverse order": lambda its: euler("xyz", its.as_euler("xyz")[:, ::-1]),
+    "roll, pitch and yaw in reverse order": lambda r: euler("xyz", r.as_euler("xyz")[:, ::-1]),
 }
-POSES = {  # by the mistake, what becomes of joints and poses
+POSES = {  # by the mistake, a change of joints and poses
     "poses of the instrument in the target's frame": lambda q, p: (q, np.linalg.inv(p)),
     "positions with a reversed axis": lambda q, p: (q, p * MIRROR),
     **{
-        words: lambda q, p, change=change: (q, reread(p, change))
-        for words, change in REREAD.items()
+        mistake: lambda q, p, change=change: (q, reread(p, change))
+        for mistake, change in REREAD.items()
     },
     # with these joints, positions alone are explained: as if the rotations were wrong
     "the columns of wrist_1_joint and wrist_2_joint exchanged": lambda q, p: (
@@ -177,11 +177,11 @@ POSES = {  # by the mistake, what becomes of joints and poses
 }
 
 
-@pytest.mark.parametrize(("words", "spoil"), POSES.items(), ids=POSES)
-def test_so_it_is_of_poses(words, spoil, arm):
+@pytest.mark.parametrize(("mistake", "spoil"), POSES.items(), ids=POSES)
+def test_so_it_is_of_poses(mistake, spoil, arm):
     real = Real(arm, 2)
     joints = real.postures(40)
-    with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
+    with pytest.raises(NoInitialEstimate, match=f"; likely: {mistake}"):
         checked_frames(arm, Observations(*spoil(joints, real.poses(joints))))
 
 

@@ -37,7 +37,11 @@ def laboratory(calibrated, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(commands, "calibrate_arm", lambda *_: result)
         load, page = commands._load, lambda _: b"a page"
-        patch.setattr(commands, "_load", lambda *its: page if "page_of" in its else load(*its))
+        patch.setattr(
+            commands,
+            "_load",
+            lambda module, name: page if name == "page_of" else load(module, name),
+        )
         assert run(folder, "calibrate", "arm.urdf", "rows.csv")[0] == DONE
         yield folder
 

@@ -151,8 +151,8 @@ def test_a_table_is_read_in_its_units(path):
 def test_the_urdf_of_a_table_is_its_arm(convention, path, tmp_path, capsys):
     out = tmp_path / "arm.urdf"
     assert main(["urdf", str(path), "--convention", convention, "--out", str(out)]) == 0
-    said = f"{out}: waist, shoulder, boom, wrist & co, from base to tool\n"
-    assert capsys.readouterr().out == said
+    expected = f"{out}: waist, shoulder, boom, wrist & co, from base to tool\n"
+    assert capsys.readouterr().out == expected
     arm, again = arm_of_table(read_rows(path), convention), load_arm(out)
     assert out.read_text() == urdf_of(arm)
     assert (again.joints, again.tool, again.base) == (arm.joints, arm.tool, arm.base)
@@ -204,11 +204,11 @@ def test_without_errors_it_is_as_published(name):
 def test_it_moves_as_the_calibrated_arm_but_for_what_is_bent_behind_the_last_joint():
     arm = load_arm("ur10_robot.urdf", "tool0")
     calibration = random_calibration(arm)
-    its, joints = origins(calibration), postures(arm)
+    links, joints = origins(calibration), postures(arm)
     own = calibration.forward(joints)
-    beside = [np.linalg.inv(flange(its, q)) @ pose for q, pose in zip(joints, own, strict=True)]
-    assert np.ptp(beside, axis=0).max() < 1e-9
-    assert np.abs(beside[0] - np.eye(4)).max() < 0.2  # what the tool's own twist does
+    gaps = [np.linalg.inv(flange(links, q)) @ pose for q, pose in zip(joints, own, strict=True)]
+    assert np.ptp(gaps, axis=0).max() < 1e-9
+    assert np.abs(gaps[0] - np.eye(4)).max() < 0.2  # what the tool's own twist does
     calibration = random_calibration(load_arm("ur10_robot.urdf", "tool0"))
     moved = origins(calibration)
     calibration.estimate.parameters[:] = 0

@@ -47,15 +47,15 @@ ANSWERS = {
 def program(tmp_path, monkeypatch):
     """Starts a program that answers so; a request that has no answer ends it."""
     monkeypatch.chdir(tmp_path)
-    begun = []
+    stations = []
 
-    def begin(**answers):
+    def start(**answers):
         text = PROGRAM.format(answers=json.dumps(ANSWERS | answers))
-        begun.append(ProgramStation([sys.executable, "-c", text]))
-        return begun[-1]
+        stations.append(ProgramStation([sys.executable, "-c", text]))
+        return stations[-1]
 
-    yield begin
-    for station in begun:
+    yield start
+    for station in stations:
         station.close()
 
 
@@ -75,7 +75,7 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("answer", "says"),
+    ("answer", "message"),
     [
         ("[INFO] measuring", "answered '.INFO. measuring' to 'measure'; expected: a JSON object"),
         ("[1, 2]", "expected: a JSON object in a line. Messages for people belong on stderr"),
@@ -84,8 +84,8 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
         ("{}", "answered 'measure' without 'row'"),
     ],
 )
-def test_an_answer_that_is_none_is_told(program, answer, says):
-    with pytest.raises(StationFailed, match=says):
+def test_an_answer_that_is_none_is_told(program, answer, message):
+    with pytest.raises(StationFailed, match=message):
         program(measure=answer).measure()
 
 
@@ -100,13 +100,13 @@ def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, mo
     station.close()
     monkeypatch.setattr("recalib.station.program.PATIENCE", 0.1)
     text = f"import time; print({json.dumps(DESCRIBED)!r}, flush=True); time.sleep(60)"
-    station, began = ProgramStation([sys.executable, "-c", text]), time.monotonic()
+    station, start = ProgramStation([sys.executable, "-c", text]), time.monotonic()
     station.close()
-    assert time.monotonic() - began < 30
+    assert time.monotonic() - start < 30
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "message"),
     [
         ("nowhere --at all", "nowhere does not start: No such file or directory"),
         ("'unclosed", "is not a command line: No closing quotation"),
@@ -117,24 +117,24 @@ def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, mo
         ("sh -c 'exit 3'", "sh ended before it answered 'describe'"),
     ],
 )
-def test_what_is_no_station_is_told(text, says):
-    with pytest.raises(StationFailed, match=says):
+def test_what_is_no_station_is_told(text, message):
+    with pytest.raises(StationFailed, match=message):
         open_station(text)
 
 
 @pytest.mark.skipif(not shutil.which("node"), reason="needs node")
 def test_the_example_in_another_language_is_a_station(tmp_path, monkeypatch):
     monkeypatch.setattr("recalib.station.guarded.PATIENCE", 60)  # s: Node starts slowly
-    arm, left = load_arm("ur10_robot.urdf", "tool0"), iter([Answer.MOVE] * 10)
+    arm, answers = load_arm("ur10_robot.urdf", "tool0"), iter([Answer.MOVE] * 10)
     program = f"node {ROOT / 'examples' / 'station.js'}"
-    ended = calibrate_live(
+    end = calibrate_live(
         lambda: open_station(program),
         arm,
         tmp_path / "rows.csv",
         LiveSettings(),
-        lambda move: next(left, Answer.END),
+        lambda move: next(answers, Answer.END),
     )
-    assert ended == ("you ended it", 11)
+    assert end == ("you ended it", 11)
 
 
 @pytest.mark.slow  # a whole session

@@ -55,9 +55,9 @@ def arm(tmp_path, monkeypatch):
 
 
 def module(monkeypatch, name: str, **members) -> None:
-    made = ModuleType(name)
-    vars(made).update(members)
-    monkeypatch.setitem(sys.modules, name, made)
+    fake = ModuleType(name)
+    vars(fake).update(members)
+    monkeypatch.setitem(sys.modules, name, fake)
 
 
 @pytest.fixture
@@ -109,12 +109,12 @@ class Future:
 @pytest.fixture
 def ros_arm(arm, monkeypatch):
     """Goals are accepted or not; a result has an error code, and comes when the arm stands."""
-    kept, times = {}, SimpleNamespace(canceled=False)
+    subscriptions, times = {}, SimpleNamespace(canceled=False)
 
     def goal():
         return SimpleNamespace(trajectory=SimpleNamespace(joint_names=[], points=[]))
 
-    def ended():
+    def outcome():
         code, text = 0, ""  # SUCCESSFUL
         if arm.emergency or times.canceled:
             arm.halt()
@@ -134,7 +134,7 @@ def ros_arm(arm, monkeypatch):
             times.canceled = False
             handle = SimpleNamespace(
                 accepted=not arm.emergency,
-                get_result_async=lambda: Future(ended),
+                get_result_async=lambda: Future(outcome),
                 cancel_goal_async=lambda: setattr(times, "canceled", True),
             )
             return Future(lambda: handle)
@@ -150,12 +150,14 @@ def ros_arm(arm, monkeypatch):
 
     def spin(node):
         for _ in range(500):
-            for kind, callback in kept.items():
+            for kind, callback in subscriptions.items():
                 callback(kind())
             time.sleep(0.01)
 
     node = SimpleNamespace(
-        create_subscription=lambda kind, topic, callback, depth: kept.update({kind: callback}),
+        create_subscription=lambda kind, topic, callback, depth: subscriptions.update(
+            {kind: callback}
+        ),
         get_clock=lambda: SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=time.time_ns())),
     )
     module(monkeypatch, "rclpy", init=lambda: None, create_node=lambda name: node, spin=spin)
@@ -217,7 +219,7 @@ def test_stop_ends_a_move_from_another_thread(station, arm):
 def test_a_picture_is_shown_with_its_corners_and_what_they_are_off_by(tmp_path):
     """Each arrow begins at a corner, and is a hundred times as long as its error."""
     cell = HandEyeCell(3, True)
-    (pose,) = cell.seen(cell.flange(1))
+    (pose,) = cell.board_poses(cell.flange(1))
     grey = cell.draw(pose)
     cv2.imwrite(str(tmp_path / "seen.png"), grey)
     with rr.RecordingStream("live") as rec:

@@ -142,14 +142,14 @@ class Cell:
         while len(found) < count:
             joints = middle + wide * self.random.uniform(-1, 1, (400, 7))
             joints = joints[((joints > low) & (joints < high)).all(axis=1)]
-            for its, pose in zip(joints, self.board_poses(joints), strict=True):
+            for posture, pose in zip(joints, self.board_poses(joints), strict=True):
                 corners = pose[:3, :3] @ self.board.points.T + pose[:3, 3:]
                 facing = -(pose[:3, 2] @ pose[:3, 3]) / np.linalg.norm(pose[:3, 3])
-                near = corners[2].min() > 0.3 and corners[2].max() < 1.4
-                if near and facing < -0.55:
+                in_range = corners[2].min() > 0.3 and corners[2].max() < 1.4
+                if in_range and facing < -0.55:
                     pixels = self.project(pose)
                     if (pixels > 30).all() and (pixels < np.subtract(self.lens.size, 30)).all():
-                        found.append(its)
+                        found.append(posture)
         return np.array(found[:count])
 
     def picture(self, pose: np.ndarray, blur: float = 0.7) -> np.ndarray:

@@ -47,7 +47,7 @@ def test_a_board_is_printed_at_true_size(board):
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "message"),
     [
         ("columns = 7|columns = 1", "columns is 1; expected: a whole number from 2 to 50"),
         ('square = "36 mm"|square = 36', "square is 36; expected: a length in mm, cm, m"),
@@ -62,12 +62,12 @@ def test_a_board_is_printed_at_true_size(board):
         ("[board]|[board", "it is not TOML"),
     ],
 )
-def test_a_description_that_is_none_is_refused(line, said, tmp_path):
+def test_a_description_that_is_none_is_refused(line, message, tmp_path):
     text = BOARDS["charuco"].described().replace(*line.split("|"))
     (tmp_path / "board.toml").write_text(text)
-    with pytest.raises(InvalidFile) as refused:
+    with pytest.raises(InvalidFile) as refusal:
         read_board(tmp_path / "board.toml")
-    assert said in str(refused.value)
+    assert message in str(refusal.value)
 
 
 SIZE = dict(zip(("width", "height"), LENS.size, strict=True))
@@ -118,7 +118,7 @@ WRITTEN = {  # by program and model: what it writes, and the coefficients
 }
 
 
-def seen_by(own: list[float], points: np.ndarray) -> np.ndarray:
+def pixels_of(own: list[float], points: np.ndarray) -> np.ndarray:
     """Pixels (n, 2) of points (n, 3) by the formulas in the manuals of these programs."""
     x, y = points[:, 0] / points[:, 2], points[:, 1] / points[:, 2]
     square = x**2 + y**2
@@ -145,7 +145,7 @@ def test_a_picture_is_what_the_lens_of_another_program_shows(text, own, tmp_path
     lens, board = read_lens(tmp_path / "lens.yaml"), BOARDS["charuco"]
     assert lens.size == LENS.size
     pose = frame([0.3, -0.4, 0.2], [-0.1, -0.06, 0.35])
-    pixels = seen_by(own, board.points @ pose[:3, :3].T + pose[:3, 3])
+    pixels = pixels_of(own, board.points @ pose[:3, :3].T + pose[:3, 3])
     found = board_pose(board, lens, Corners(np.arange(len(pixels)), pixels, 1.0))
     assert found == pytest.approx(pose, abs=1e-6)
 
@@ -154,7 +154,7 @@ ROS = LENS.as_ros()
 
 
 @pytest.mark.parametrize(
-    ("text", "change", "said"),
+    ("text", "change", "message"),
     [
         (CHAIN, "cam0|camera_0", "are not numbers of pixels"),
         (CHAIN, "pinhole|omni", "camera_model is 'omni'; expected: pinhole"),
@@ -180,9 +180,9 @@ ROS = LENS.as_ros()
         pytest.param(ROS, "[1105|" + 10_000 * "[", "it is not a YAML", id="deep"),
     ],
 )
-def test_a_lens_that_is_none_is_refused(text, change, said, tmp_path):
+def test_a_lens_that_is_none_is_refused(text, change, message, tmp_path):
     (tmp_path / "lens.yaml").write_text(text.replace(*change.split("|")))
-    with pytest.raises(InvalidFile, match=said.replace("[", r"\[")):
+    with pytest.raises(InvalidFile, match=message.replace("[", r"\[")):
         read_lens(tmp_path / "lens.yaml")
 
 
@@ -200,22 +200,22 @@ def test_the_bar_below_a_board_is_100_mm_long(size):
     assert np.ptp(columns) + 1 == longest  # one piece
     assert longest * 25.4 / DOTS == pytest.approx(100, abs=0.3)
     assert np.ptp(rows) * 25.4 / DOTS == pytest.approx(2, abs=0.4)
-    left = (wide - 1e3 * board.size[0]) / 2
-    assert columns[0] * 25.4 / DOTS == pytest.approx(left, abs=0.3)
+    margin = (wide - 1e3 * board.size[0]) / 2
+    assert columns[0] * 25.4 / DOTS == pytest.approx(margin, abs=0.3)
 
 
 def test_a_lens_is_written_as_ros_reads_it():
-    said = yaml.safe_load(LENS.as_ros())
+    written = yaml.safe_load(LENS.as_ros())
     (fx, _, cx), (_, fy, cy), _ = LENS.matrix.tolist()
-    assert (said["image_width"], said["image_height"]) == LENS.size
-    assert said["distortion_model"] == "plumb_bob"
+    assert (written["image_width"], written["image_height"]) == LENS.size
+    assert written["distortion_model"] == "plumb_bob"
     for name, rows, columns, data in (
         ("camera_matrix", 3, 3, LENS.matrix.ravel().tolist()),
         ("distortion_coefficients", 1, 5, [*LENS.distortion.tolist(), 0]),
         ("rectification_matrix", 3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1]),
         ("projection_matrix", 3, 4, [fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0]),
     ):
-        assert said[name] == {"rows": rows, "cols": columns, "data": pytest.approx(data)}
+        assert written[name] == {"rows": rows, "cols": columns, "data": pytest.approx(data)}
 
 
 def test_four_markers_are_enough_and_eight_corners_are_needed():

@@ -57,13 +57,13 @@ def written(poses: np.ndarray, way: str = "ros") -> str:
 
 @pytest.fixture
 def tables(tmp_path, monkeypatch):
-    """Write tables of a cell, in a folder of their own: its true and said poses."""
+    """Write tables of a cell, in a folder of their own: its true and reported poses."""
     monkeypatch.chdir(tmp_path)
 
     def write(cell: HandEyeCell, count: int = POSES, way: str = "ros"):
         flange = cell.flange(count)
-        (tmp_path / "poses.txt").write_text(written(cell.said(flange), way))
-        (tmp_path / "targets.txt").write_text(written(cell.seen(flange)))
+        (tmp_path / "poses.txt").write_text(written(cell.reported(flange), way))
+        (tmp_path / "targets.txt").write_text(written(cell.board_poses(flange)))
 
     return write
 
@@ -116,8 +116,8 @@ def test_frames_do_not_matter(seed, in_hand, moved_base):
     # an error of the flange has the same size in every base, but not about every point of the tool
     flange = step @ sights.flange if moved_base else sights.flange @ turned(rng.normal(size=(1, 3)))
     one, other = calibrate_hand_eye(sights), calibrate_hand_eye(replace(sights, flange=flange))
-    seen = [found.predict(found.sights) for found in (one, other)]
-    assert np.abs(displacements(*seen)).max() < 2e-4
+    predicted = [found.predict(found.sights) for found in (one, other)]
+    assert np.abs(displacements(*predicted)).max() < 2e-4
     assert other.accuracy == pytest.approx(one.accuracy, rel=0.1)
 
 
@@ -198,18 +198,18 @@ def about_one_axis(cell: HandEyeCell) -> np.ndarray:
 
 
 class Fault(NamedTuple):
-    """What is wrong with poses of a flange, and what is said.
+    """What is wrong with poses of a flange, and the message.
 
     Attributes:
         flange: true poses (n, 4, 4) in a cell.
         change: of the poses that are written.
         options: with which they are read, if written by `way`; by any way if it is empty.
-        otherwise: whether the camera is said to be on the other side.
+        otherwise: whether the camera is described as on the other side.
     """
 
-    said: str
+    message: str
     flange: Callable = lambda cell: cell.flange(POSES)
-    change: Callable = lambda said: said
+    change: Callable = lambda poses: poses
     options: tuple[str, ...] = ()
     way: str = ""
     otherwise: bool = False
@@ -259,15 +259,15 @@ def test_what_cannot_be_is_named_in_one_sentence(fault, seed, in_hand, way):
     flange = fault.flange(cell)
     with TemporaryDirectory() as folder, redirect_stderr(StringIO()) as stderr:
         poses, targets = Path(folder, "poses.txt"), Path(folder, "targets.txt")
-        poses.write_text(written(fault.change(cell.said(flange)), way))
-        targets.write_text(written(cell.seen(flange)))
+        poses.write_text(written(fault.change(cell.reported(flange)), way))
+        targets.write_text(written(cell.board_poses(flange)))
         inputs = ["--poses", str(poses), "--convention", way, "--targets", str(targets)]
         where = ["--target-convention", "ros", "--camera", SIDES[in_hand != fault.otherwise]]
         out = ["--out", str(Path(folder, "out"))]
         code = main(["calibrate", *inputs, *where, *out, *fault.options])
     lines = [line for line in stderr.getvalue().splitlines() if not line.startswith("...")]
-    said = fault.said + SIDES[in_hand] * fault.otherwise
-    assert code == REFUSED and len(lines) == 1 and said in lines[0], lines
+    expected = fault.message + SIDES[in_hand] * fault.otherwise
+    assert code == REFUSED and len(lines) == 1 and expected in lines[0], lines
 
 
 @pytest.mark.parametrize("in_hand", [False, True])
@@ -296,10 +296,10 @@ def test_pictures(in_hand, tmp_path, monkeypatch, capsys):
     cell = HandEyeCell(10, in_hand)
     flange = cell.flange(12)
     (tmp_path / "pictures").mkdir()
-    for number, pose in enumerate(cell.seen(flange), 1):
+    for number, pose in enumerate(cell.board_poses(flange), 1):
         cv2.imwrite(str(tmp_path / f"pictures/{number}.png"), cell.draw(pose))
     (tmp_path / "board.toml").write_text(cell.board.described())
-    (tmp_path / "poses.txt").write_text(written(cell.said(flange), "kuka"))
+    (tmp_path / "poses.txt").write_text(written(cell.reported(flange), "kuka"))
     inputs = ["--poses", "poses.txt", "--convention", "kuka", "--pictures", "pictures"]
     where = ["--board", "board.toml", "--camera", SIDES[in_hand], "--out", "out"]
     assert main(["calibrate", *inputs, *where]) == DONE
@@ -322,10 +322,10 @@ def test_pictures(in_hand, tmp_path, monkeypatch, capsys):
     proposed = read_poses("next.csv").poses
     assert len(proposed) == 6
     for pose in proposed:
-        shown = cell.seen(pose)
-        middle = shown[:3, :3] @ cell.board.points.mean(axis=0) + shown[:3, 3]
-        assert shown[:3, 2] @ middle / np.linalg.norm(middle) > np.cos(np.radians(45))
-        pixels, _ = projected(cell.board.points, cell.lens, shown)
+        board = cell.board_poses(pose)
+        middle = board[:3, :3] @ cell.board.points.mean(axis=0) + board[:3, 3]
+        assert board[:3, 2] @ middle / np.linalg.norm(middle) > np.cos(np.radians(45))
+        pixels, _ = projected(cell.board.points, cell.lens, board)
         assert np.mean((pixels > 0) & (pixels < cell.lens.size)) > 0.5
         low, high = np.array(limits_of(flange)).T
         assert ((pose[:3, 3] > low - 1e-3) & (pose[:3, 3] < high + 1e-3)).all()
@@ -367,10 +367,10 @@ def test_with_joints_and_a_urdf_the_arm_is_calibrated(joints, tmp_path, monkeypa
     where = ["--board", "board.toml", "--camera", "hand"]
     assert main(["calibrate", *inputs, *where, "--out", "hand_eye"]) == DONE
     arm = ["panda.urdf", "--tool", "panda_link8"]
-    ended = main(["calibrate", *arm, *inputs, *where, "--out", "arm"])
+    code = main(["calibrate", *arm, *inputs, *where, "--out", "arm"])
     if joints:
-        assert ended == DONE
+        assert code == DONE
         assert (tmp_path / "arm/arm.urdf").exists()
     else:
-        assert ended == REFUSED
+        assert code == REFUSED
         assert "the column of joint 'panda_joint1' is missing" in capsys.readouterr().err

@@ -58,7 +58,7 @@ def test_no_picture_is_taken_in_vain_once_there_is_a_calibration(live):
 
 
 @pytest.fixture
-def begun(tmp_path, monkeypatch):
+def session(tmp_path, monkeypatch):
     """A table with three pictures, each in a row."""
     monkeypatch.chdir(tmp_path)
     cell = Cell(3)
@@ -81,33 +81,33 @@ def read_again(cell):
     return record.observations
 
 
-def test_a_calibration_that_goes_on_searches_its_pictures_again(begun):
-    cell, before = begun
+def test_a_calibration_that_goes_on_searches_its_pictures_again(session):
+    cell, before = session
     again = read_again(cell)
     assert np.array_equal(again.measured, before.measured)
     for name in ("spread", "slopes", "information", "gradient", "pixels"):
         assert np.array_equal(getattr(again.optics, name), getattr(before.optics, name))
 
 
-@pytest.mark.parametrize("gone", ["removed", "empty", "another size", "another board"])
-def test_a_picture_that_is_not_what_it_was_is_told_before_anything_moves(begun, tmp_path, gone):
-    (cell, _), picture = begun, tmp_path / "1.png"
-    if gone == "removed":
+@pytest.mark.parametrize("change", ["removed", "empty", "another size", "another board"])
+def test_a_picture_that_is_not_what_it_was_is_told_before_anything_moves(session, tmp_path, change):
+    (cell, _), picture = session, tmp_path / "1.png"
+    if change == "removed":
         picture.unlink()
-    elif gone == "empty":
+    elif change == "empty":
         picture.write_bytes(b"")
-    elif gone == "another size":
+    elif change == "another size":
         cell = replace(cell, lens=replace(cell.lens, size=(1280, 962)))
     else:
         cell = replace(cell, board=replace(cell.board, dictionary="5X5_100"))
     reason = {"removed": "there is no such file", "empty": "it is not a picture"}
-    reason = reason.get(gone, "it does not show the board")
+    reason = reason.get(change, "it does not show the board")
     with pytest.raises(InvalidFile, match=rf"\d.png: {reason}"):
         read_again(cell)
 
 
-def test_a_table_without_pictures_is_none_for_a_camera(begun, tmp_path):
-    cell, _ = begun
+def test_a_table_without_pictures_is_none_for_a_camera(session, tmp_path):
+    cell, _ = session
     with open("table.csv", newline="") as file:
         rows = [row[:-8] + row[-7:] for row in csv.reader(file)]
     with open("table.csv", "w", newline="") as file:
@@ -132,36 +132,36 @@ def test_what_stands_is_measured_in_what_moves(in_hand, tmp_path):
     cell, path = Cell(3, in_hand), tmp_path / "000.png"
     (pose,) = cell.board_poses(cell.postures(1))
     cv2.imwrite(str(path), cell.picture(pose))
-    seeing = PicturesOfABoard(Photographs(path), BoardInPictures(cell.board, cell.lens, in_hand))
-    cells = seeing.measure()
+    camera = PicturesOfABoard(Photographs(path), BoardInPictures(cell.board, cell.lens, in_hand))
+    cells = camera.measure()
     expected = np.linalg.inv(pose) if in_hand else pose
     assert cells.pop("picture") == str(path)
     assert [cells[f"{axis} [m]"] for axis in "xyz"] == pytest.approx(expected[:3, 3], abs=2e-3)
     turn = Rotation.from_quat([cells[f"q{axis}"] for axis in "xyzw"])
     assert (turn * Rotation.from_matrix(expected[:3, :3]).inv()).magnitude() < 2e-3
     with pytest.raises(StationFailed, match="000.png is the same picture as the one before: is it"):
-        seeing.measure()
+        camera.measure()
 
 
 def test_what_is_no_picture_of_it_is_told(tmp_path):
     station, cell = Photographs(tmp_path / "grey.png"), Cell(3)
-    seeing = PicturesOfABoard(station, BoardInPictures(cell.board, cell.lens, False))
-    for cells, says in (
+    camera = PicturesOfABoard(station, BoardInPictures(cell.board, cell.lens, False))
+    for cells, message in (
         ({"x [m]": 1.0}, "the station measured x .m.; expected: picture"),
         ({"picture": "nowhere.png"}, "nowhere.png: there is no such file"),
     ):
         station.measure = lambda cells=cells: cells
-        with pytest.raises(RecalibError, match=says):
-            seeing.measure()
+        with pytest.raises(RecalibError, match=message):
+            camera.measure()
     del station.measure
     cv2.imwrite(str(tmp_path / "grey.png"), np.full((100, 200), 128, np.uint8))
     with pytest.raises(StationFailed, match="has 200 x 100 pixels; expected, as by the lens: 1280"):
-        seeing.measure()
+        camera.measure()
     grey = np.full(cell.lens.size[::-1], 128, np.uint8)
     cv2.imwrite(str(tmp_path / "grey.png"), grey)
-    assert seeing.measure() is None
+    assert camera.measure() is None
     station.measure = lambda: None
-    assert seeing.measure() is None
+    assert camera.measure() is None
 
 
 def test_a_picture_with_few_good_corners_is_no_sight_of_the_board(tmp_path, monkeypatch):
