@@ -98,13 +98,13 @@ WORKING = "print('at work', flush=True); import time; time.sleep(600)"
 
 
 def test_a_job_ends_at_once_and_without_a_word():
-    its = subprocess.Popen(
+    process = subprocess.Popen(
         [sys.executable, "-c", WORKING],
         env=os.environ | {"PYTHONPATH": str(ROOT / "workflow" / "start")},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )
-    its.stdout.readline()
-    its.send_signal(signal.SIGINT)
-    assert its.communicate()[1] == b""
-    assert its.returncode == -signal.SIGINT
+    process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    assert process.communicate()[1] == b""
+    assert process.returncode == -signal.SIGINT
