@@ -108,10 +108,10 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, conve
     ]
     assert np.allclose(learner.command(tests), expected, atol=1e-12)
     for run, maps in enumerate(learner.state()):
-        for held, its in zip(maps.values(), slow[run], strict=True):
+        for held, expected_map in zip(maps.values(), slow[run], strict=True):
             for k, l in product(range(6), range(4)):
-                assert np.allclose(held["theta"][k, l], its.theta[k, l], atol=1e-12)
-                assert np.allclose(held["jacobian"][k, l], its.A[k, l], atol=1e-12)
+                assert np.allclose(held["theta"][k, l], expected_map.theta[k, l], atol=1e-12)
+                assert np.allclose(held["jacobian"][k, l], expected_map.A[k, l], atol=1e-12)
 
 
 @pytest.mark.parametrize(

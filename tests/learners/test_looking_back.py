@@ -34,20 +34,20 @@ def test_the_process_is_that_of_the_moves_that_were_carried_out():
     asked = np.random.default_rng(4).uniform(-1, 1, (2, 3, 6))
     commands = learner.command(asked)
     for run in range(2):
-        its = EXECUTED[run]
-        process = Process(ACHIEVED[run, its], (SENT - ACHIEVED)[run, its])
+        executed = EXECUTED[run]
+        process = Process(ACHIEVED[run, executed], (SENT - ACHIEVED)[run, executed])
         np.testing.assert_allclose(commands[run], asked[run] + process.predict(asked[run]))
 
 
 def test_hyperparameters_are_sought_anew_when_the_moves_have_doubled_and_kept_between():
-    learner, seen = GaussianProcessLearner(runs=2), []
+    learner, hyperparameters = GaussianProcessLearner(runs=2), []
     for move in range(MOVES):
         state = observed(learner, move, move + 1).state()[1]
         assert state["moves"]["executed"].shape == (move + 1,)
-        seen.append(tuple(state["process"]["hyperparameters"]))
+        hyperparameters.append(tuple(state["process"]["hyperparameters"]))
     # fewer than six moves say nothing of them; from eight on they are sought, and at sixteen anew
-    assert len({*seen[:7]}) == 1 != len({*seen[6:8]})
-    assert len({*seen[7:]}) == 1
+    assert len({*hyperparameters[:7]}) == 1 != len({*hyperparameters[6:8]})
+    assert len({*hyperparameters[7:]}) == 1
     lengths = [len(observed(learner, 0, 0).state()[run]["process"]["inputs"]) for run in (0, 1)]
     assert lengths == [MOVES - 1, MOVES]
 
