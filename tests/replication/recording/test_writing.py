@@ -39,9 +39,9 @@ def test_two_recordings_of_the_same_are_equal_and_a_millimetre_shows(small, file
         scenarios = small.scenarios | {OWN: damages}
         study = changed(small, experiments={"scenarios": (OWN,)}, scenarios=scenarios)
         (tmp_path / str(same)).mkdir()
-        its = trained(study, tmp_path / str(same))
-        record(study, *its)
-        assert rrd("compare", "--unordered", files.recordings[0], its.recordings[0]) == same
+        other = trained(study, tmp_path / str(same))
+        record(study, *other)
+        assert rrd("compare", "--unordered", files.recordings[0], other.recordings[0]) == same
 
 
 def test_a_recording_that_differs_from_the_history_is_not_written(small, files, tmp_path):

@@ -150,7 +150,7 @@ def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(study, files,
 
 
 def test_on_a_twin_a_learner_chooses_its_poses(study, files, settings, monkeypatch):
-    its = changed(study, training={"tests": 5})
+    few = changed(study, training={"tests": 5})
     asked, learner = [], Tuned.learner
 
     def noted(self, *what):
@@ -159,7 +159,7 @@ def test_on_a_twin_a_learner_chooses_its_poses(study, files, settings, monkeypat
 
     monkeypatch.setattr(Tuned, "learner", noted)
     twin = {"improved": 200}
-    found = learned(its, files, "improved", (2, 4, 1000), 3, settings, twin=twin)
+    found = learned(few, files, "improved", (2, 4, 1000), 3, settings, twin=twin)
     assert asked == [("improved", 200, 3)]
     assert found["twin"].all() and found["subset"].tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
     assert found["poses"].tolist() == [2, 4, 400] * 3  # two moves an iteration
@@ -189,12 +189,12 @@ def test_tables_of_too_little_or_in_another_frame_are_refused(
 def test_another_table_than_the_one_that_is_meant_is_refused(digest, study, tmp_path):
     given = tmp_path / "given.csv"
     given.write_text("a table")
-    its = hashlib.sha256(given.read_bytes()).hexdigest()
+    actual = hashlib.sha256(given.read_bytes()).hexdigest()
     right, wrong = (
-        Source(url="https://there", file=str(given), sha256=sha256) for sha256 in (its, digest)
+        Source(url="https://there", file=str(given), sha256=sha256) for sha256 in (actual, digest)
     )
     assert fetched(right) == b"a table"
-    with pytest.raises(RecalibError, match=f"has SHA-256 {its}; expected {digest}"):
+    with pytest.raises(RecalibError, match=f"has SHA-256 {actual}; expected {digest}"):
         fetch(changed(study, real={"data": {"fit": right, "test": wrong}}))
     gone = str(tmp_path / "gone.csv")
     with pytest.raises(RecalibError, match=r"gone.csv is out of reach .* can be named in real"):
