@@ -103,16 +103,16 @@ recalib.load_robott("ur10_robot.urdf")
 def test_a_type_checker_knows_the_public_names_and_finds_no_fault_with_the_examples(tmp_path):
     pytest.importorskip("mypy", reason="needs mypy, of the extra dev")
     (tmp_path / "misuse.py").write_text(MISUSE)
-    ran = subprocess.run(
+    checked = subprocess.run(
         [sys.executable, "-m", "mypy", "examples", tmp_path / "misuse.py"],
         cwd=ROOT,
         text=True,
         capture_output=True,
     )
     # not the whole path: of the same text, mypy's cache still knows the one of the last run
-    faults = re.findall(r"(\w+)\.py:(\d+): error:", ran.stdout)
-    assert faults == [("misuse", "7"), ("misuse", "7"), ("misuse", "8")], ran.stdout
-    assert "nonsense" in ran.stdout and "load_robott" in ran.stdout
+    faults = re.findall(r"(\w+)\.py:(\d+): error:", checked.stdout)
+    assert faults == [("misuse", "7"), ("misuse", "7"), ("misuse", "8")], checked.stdout
+    assert "nonsense" in checked.stdout and "load_robott" in checked.stdout
 
 
 @pytest.mark.slow

@@ -80,7 +80,7 @@ def test_what_the_study_does_is_taken():
     executed = np.array([[True, True, False, False]])
     last = check_moves(sent, came, executed)
     assert [part.shape for part in last] == [(1, 1, 6), (1, 1, 6), (1, 1)]
-    check_moves(sent[:, 1:2], came[:, 3:], np.array([[True]]), last)  # nobody moved before it
+    check_moves(sent[:, 1:2], came[:, 3:], np.array([[True]]), last)  # no move precedes it
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -92,8 +92,8 @@ def test_a_learner_survives_equal_poses(name, makers):
             lambda commands: Outcome(commands + 0.01, np.ones(commands.shape[:2], dtype=bool)),
             step / 20,
         )
-    left = learner.command(DESIRED[:, None]) + 0.01 - DESIRED[:, None]
-    assert np.abs(left).max() < 0.005
+    residuals = learner.command(DESIRED[:, None]) + 0.01 - DESIRED[:, None]
+    assert np.abs(residuals).max() < 0.005
     assert np.isfinite(learner.command(TESTS)).all()
 
 

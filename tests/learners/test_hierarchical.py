@@ -74,7 +74,7 @@ def written_out(learner, desired, start, rates):
     if rules.initial is not None and not rules.theta_increments:
         shape = (*map(len, grids), 6)
         start_theta = np.random.default_rng(rules.initial).uniform(-1, 1, shape)
-    every = []
+    of_runs = []
     for poses in desired:
         maps = [SlowMap(*grids, outputs, start_theta) for outputs in rules.maps.values()]
         for t, u in enumerate(poses):
@@ -88,8 +88,8 @@ def written_out(learner, desired, start, rates):
                 np.array(rules.metric),
                 np.array(rules.width_units),
             )
-        every.append(maps)
-    return every
+        of_runs.append(maps)
+    return of_runs
 
 
 @pytest.mark.parametrize(("switches", "convention"), CASES)

@@ -106,16 +106,16 @@ def test_of_a_pose_that_nothing_reaches_the_best_angles_are_kept(robot):
     pose[0, 0, 3] += 3.0  # m
     angles, residuals = Chain.of(robot.arm).solve(pose, robot.home[None])
     assert TOLERANCE < residuals[0] <= 3.0
-    missed = pose[0, :3, 3] - robot.arm.forward(angles)[0, :3, 3]
-    assert np.abs(missed).max() <= residuals[0] + 1e-12
+    error = pose[0, :3, 3] - robot.arm.forward(angles)[0, :3, 3]
+    assert np.abs(error).max() <= residuals[0] + 1e-12
 
 
 def test_positions_alone_are_reached_by_the_shortest_steps():
     arm, start = standing("ur10_robot.urdf")
     pose, jacobian = arm.forward_and_jacobian(start)
     goal = pose[:, :3, 3] + 1e-5
-    angles, left = in_groups(arm, goal, start)
-    assert left <= TOLERANCE
+    angles, residuals = in_groups(arm, goal, start)
+    assert residuals <= TOLERANCE
     assert np.abs(arm.forward(angles)[:, :3, 3] - goal).max() <= TOLERANCE
     shortest = np.linalg.pinv(jacobian[0, :3]) @ np.full(3, 1e-5)
     np.testing.assert_allclose((angles - start)[0], shortest, rtol=1e-3, atol=1e-9)
@@ -124,12 +124,12 @@ def test_positions_alone_are_reached_by_the_shortest_steps():
 def test_half_a_turn_is_not_taken_for_none():
     arm, start = standing("ur10_robot.urdf")
     goal = arm.forward(start + np.pi * np.eye(6)[[5]])  # with the hand turned over
-    angles, left = in_groups(arm, goal, start, steps=1)
-    assert left[0] > 2
-    angles, left = in_groups(arm, goal, start)
-    assert left <= TOLERANCE
+    angles, residuals = in_groups(arm, goal, start, steps=1)
+    assert residuals[0] > 2
+    angles, residuals = in_groups(arm, goal, start)
+    assert residuals <= TOLERANCE
     np.testing.assert_allclose(arm.forward(angles), goal, rtol=0, atol=1e-10)
     arm, start = standing("ur10_robot.urdf")
     goal = arm.forward(start + np.pi * np.eye(6)[[5]])
-    _, left = by_chain(arm, goal, start)
-    assert left == np.inf
+    _, residuals = by_chain(arm, goal, start)
+    assert residuals == np.inf

@@ -53,9 +53,9 @@ def results(tmp_path):
 def test_what_a_killed_run_left_is_swept_up_and_nothing_else(results):
     assert len(list(results.rglob(".*"))) == 2
     hold([str(results)])
-    left = {str(path.relative_to(results)) for path in results.rglob("*") if path.is_file()}
+    remaining = {str(path.relative_to(results)) for path in results.rglob("*") if path.is_file()}
     (elsewhere,) = (results / "studies/b/runs").iterdir()
-    assert left == {"runs/b.parquet", MARK, str(elsewhere.relative_to(results))}
+    assert remaining == {"runs/b.parquet", MARK, str(elsewhere.relative_to(results))}
 
 
 def test_a_folder_is_held_until_the_process_ends(tmp_path):

@@ -1,4 +1,4 @@
-"""The site, seen in a real browser and judged by axe."""
+"""The site in a real browser, checked by axe."""
 
 import re
 import subprocess

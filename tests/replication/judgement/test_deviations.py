@@ -46,8 +46,8 @@ def test_entries_are_in_the_order_of_time(record):
 def test_entries_have_the_times_of_their_commits(record):
     stated = {change.commit: change.when for change in changes(record)}
     command = ["git", "show", "--no-patch", "--format=%ct", *stated]
-    ran = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
-    if ran.returncode:
+    process = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
+    if process.returncode:
         pytest.skip("needs the project's history")
-    at = [datetime.fromtimestamp(int(time), UTC) for time in ran.stdout.split()]
-    assert [*stated.values()] == [f"{time:%Y-%m-%d %H:%M}" for time in at]
+    times = [datetime.fromtimestamp(int(time), UTC) for time in process.stdout.split()]
+    assert [*stated.values()] == [f"{time:%Y-%m-%d %H:%M}" for time in times]

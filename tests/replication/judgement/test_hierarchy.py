@@ -1,4 +1,4 @@
-"""Mean, heterogeneity and luck. That they cover the truth is in campaign/test_table_to_verdict."""
+"""Mean, heterogeneity and noise. Their coverage is tested in campaign/test_table_to_verdict."""
 
 import numpy as np
 import pandas as pd

@@ -58,8 +58,8 @@ def history(iterations: list[int], seeds: int, learner: str) -> pd.DataFrame:
     for seed in range(seeds):
         for iteration in iterations:
             errors = INITIAL * (1 + 0.05 * seed) / (1 + iteration / soon)
-            about = {"iterations": iterations[-1], "seed": seed, "iteration": iteration}
-            rows.append(about | dict(zip(ERRORS, errors, strict=True)))
+            keys = {"iterations": iterations[-1], "seed": seed, "iteration": iteration}
+            rows.append(keys | dict(zip(ERRORS, errors, strict=True)))
     return pd.DataFrame(rows)
 
 

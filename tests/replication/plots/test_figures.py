@@ -74,8 +74,8 @@ def test_figure_1_shows_the_means_of_the_seeds(figures, evidence):
 
 def right_of(axes):
     """The words to the right of rows."""
-    (beside,) = axes.child_axes
-    return [label.get_text() for label in beside.get_yticklabels()]
+    (right,) = axes.child_axes
+    return [label.get_text() for label in right.get_yticklabels()]
 
 
 def test_steps_say_how_many_iterations_were_planted(figures):

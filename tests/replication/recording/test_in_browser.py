@@ -77,7 +77,7 @@ def damaged(robot, damage):
 @needs_node
 def test_the_kinematics_are_those_of_the_library(robot, controller, written):
     plant = damaged(robot, LARGEST)
-    asked = f"""(() => {{
+    expression = f"""(() => {{
       const {{ controller, tests }} = new Experiment(STUDY);
       const plant = new Plant(controller, STUDY.robot.links, {LARGEST});
       const {{ workspace }} = controller;
@@ -86,7 +86,7 @@ def test_the_kinematics_are_those_of_the_library(robot, controller, written):
         coordinates: workspace.toCoordinates(plant.achieve(angles)),
         errors: errors(plant.achieve(angles), pose) }}));
     }})()"""
-    found = pd.DataFrame(in_node(written, asked))
+    found = pd.DataFrame(in_node(written, expression))
     tests = np.array(content(written).tests)
     desired, angles = robot.workspace.to_poses(tests), controller.targets(tests[None]).angles[0]
     achieved = plant.forward(angles)
@@ -113,8 +113,10 @@ def test_every_measurement_of_a_training_is_that_of_the_library(name, request):
     controller = request.getfixturevalue("narrow" if name == "beyond limits" else "controller")
     robot, limits = controller.robot, ("lower", "upper")
     bounds = json.dumps({limit: getattr(robot, limit).tolist() for limit in limits})
-    asked = f"Object.assign(STUDY.robot, {bounds}) && [...new Experiment(STUDY).train({LARGEST})]"
-    found = pd.DataFrame(in_node(STUDY, asked))
+    expression = (
+        f"Object.assign(STUDY.robot, {bounds}) && [...new Experiment(STUDY).train({LARGEST})]"
+    )
+    found = pd.DataFrame(in_node(STUDY, expression))
     plant, training = Plant(controller, damaged(robot, LARGEST)), content(STUDY)
     learner = HierarchicalLearner(IMPROVED, Schedule(**training.schedule))
     poses, measure_at = map(np.array, (training.desired, training.tests)), range(0, 201, 4)
@@ -129,14 +131,14 @@ def test_every_measurement_of_a_training_is_that_of_the_library(name, request):
 def test_an_identification_finds_the_damage_and_leaves_nothing(written):
     damages = LARGEST, [0.0] * 10, [0.01, 0.0, 0.02, 0.04, 0.0, -0.07, 0.0, 0.03, 0.0, 0.05]
     experiment = "new Experiment(STUDY)"
-    asked = (
+    expressions = (
         f"[{experiment}.identify({damage}), {experiment}.identified({damage})]"
         for damage in damages
     )
-    found = in_node(written, f"[{', '.join(asked)}]")
-    for damage, (identified, left) in zip(damages, found, strict=True):
+    found = in_node(written, f"[{', '.join(expressions)}]")
+    for damage, (identified, residuals) in zip(damages, found, strict=True):
         close(identified, damage)
-        close([left["position"], left["orientation"]], 0)
+        close([residuals["position"], residuals["orientation"]], 0)
 
 
 def test_what_is_written_is_the_recorded_training_and_what_is_shipped_the_studys(

@@ -14,8 +14,8 @@ from tests.replication.recording.conftest import DAMAGES, OWN, trained
 
 
 def rrd(*command) -> bool:
-    ran = subprocess.run([PROGRAM, "rrd", *command], env=quiet(), capture_output=True)
-    return ran.returncode == 0
+    process = subprocess.run([PROGRAM, "rrd", *command], env=quiet(), capture_output=True)
+    return process.returncode == 0
 
 
 def test_every_recording_is_valid_and_small(files):

@@ -101,9 +101,9 @@ def test_rules_are_what_the_configuration_says(study):
 
 @pytest.mark.parametrize("switch", SWITCHES)
 def test_a_switch_changes_one_thing_of_each_system(study, switch):
-    known = {name: rules.model_dump() for name, rules in study.every_learner.items()}
-    improved, ritter = known["improved"], known["ritter"]
-    without, added = known[switch.without], known[switch.added]
+    rules_by_name = {name: rules.model_dump() for name, rules in study.every_learner.items()}
+    improved, ritter = rules_by_name["improved"], rules_by_name["ritter"]
+    without, added = rules_by_name[switch.without], rules_by_name[switch.added]
     cells = {"supernet": (3, 6, 3)} if switch.key == "maps" else {}  # as many in one map as in two
     assert without == improved | {switch.key: ritter[switch.key]} | cells
     assert added == ritter | {switch.key: improved[switch.key]}
