@@ -45,7 +45,7 @@ def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
     [
         ("study STUDY=my_arm", "snakemake --cores 2 --configfile my_arm.yaml --quiet"),
         ("view STUDY=my_arm", "127.0.0.1 --new results/studies/my_arm/recordings/fall.rrd"),
-        ("web STUDY=my_arm", "watch results/studies/my_arm --port 9090"),
+        ("web STUDY=my_arm", "--directory results/studies/my_arm/web 9090"),
     ],
 )
 def test_a_command_speaks_of_its_study(project, command, planned):
