@@ -36,7 +36,7 @@ from recalib import (
 from recalib.learners import class_of
 from replication.config import Study, read_study
 from replication.scenarios import Nominal, Resolved, nominal_controller, resolve
-from replication.scenarios.nominal import nominal
+from replication.scenarios.nominal import nominal_of
 from replication.training import make_peer, peers
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
@@ -97,7 +97,7 @@ class Plan(NamedTuple):
     study: Study
 
     def nominal(self, robot: str) -> Nominal:
-        return nominal(self.study, robot)
+        return nominal_of(self.study, robot)
 
     def resolved(self, scenario: str) -> Resolved:
         """A scenario on the study's robot."""

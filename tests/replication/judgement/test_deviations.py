@@ -22,7 +22,7 @@ def changes(record: Deviations) -> list[Change]:
 
 
 def test_what_is_registered_is_as_the_last_entry_names_it(record, study):
-    changed = record.untold(digests(study, ROOT))
+    changed = record.undeclared(digests(study, ROOT))
     assert not changed, (
         f"{', '.join(changed)}: not as {DEVIATIONS} names it last. Try: add an entry there, with"
         " what `python -m replication.judgement.deviations` prints below `digests`"
@@ -33,8 +33,8 @@ def test_an_entry_replaces_what_was_registered(record):
     entry = record.deviations[0].model_copy(update={"digests": {"b": "2", "c": REMOVED}})
     registered = dict.fromkeys("abc", "1")
     amended = record.model_copy(update={"registered": registered, "deviations": (entry,)})
-    assert amended.untold({"a": "1", "b": "2"}) == {}
-    found = amended.untold({"b": "1", "c": "1", "d": "1"})
+    assert amended.undeclared({"a": "1", "b": "2"}) == {}
+    found = amended.undeclared({"b": "1", "c": "1", "d": "1"})
     assert found == {"b": "1", "c": "1", "d": "1", "a": REMOVED}
 
 
