@@ -137,7 +137,7 @@ def makers(robot) -> dict[str, Callable]:
     widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
     schedule = Schedule(4.0, widths, 0.8, 0.4)
     of_paper = partial(class_of("hierarchical"), rules=rules, schedule=schedule)
-    peer_of = {its.kind: name for name, its in peers().items() if its.kind}
+    peer_of = {peer.kind: name for name, peer in peers().items() if peer.kind}
     of_today = {kind: partial(make_peer, name, robot=robot) for kind, name in peer_of.items()}
     radial = partial(RadialLearner, rules, schedule, 0.4)
     return {"hierarchical": of_paper, "radial": radial} | of_today

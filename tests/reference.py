@@ -88,7 +88,7 @@ def identify(linearise, deviations, measured):
     noise, weights = np.full(kinds, 1e-4), np.ones(len(measured))
     for step in range(60):
         poses, jacobians = linearise(p * deviations)
-        r = [_residuals(pose, its) for pose, its in zip(poses, measured, strict=True)]
+        r = [_residuals(pose, observed) for pose, observed in zip(poses, measured, strict=True)]
         J = (jacobians * deviations)[:, : 3 * kinds].reshape(len(measured), kinds, 3, count)
         if step > 0:
             for i in range(len(measured)):

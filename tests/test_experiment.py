@@ -39,18 +39,18 @@ def test_learning_reduces_both_errors_of_every_run_by_two_moves_an_iteration(his
 
 def test_a_summary_is_the_mean_the_95th_percentile_and_the_largest():
     errors = np.stack([np.arange(101.0) ** 2, np.ones(101)])
-    said = [summary(errors) for summary in SUMMARIES.values()]
-    assert np.array_equal(said, [[3350, 1], [95**2, 1], [100**2, 1]])
+    summaries = [summary(errors) for summary in SUMMARIES.values()]
+    assert np.array_equal(summaries, [[3350, 1], [95**2, 1], [100**2, 1]])
     assert list(SUMMARIES) == ["", "_p95", "_max"]
 
 
 class Watched:
-    """A robot that stays where it is, and a learner that keeps what it is asked and told."""
+    """A robot that stays where it is, and a learner that records what it is given."""
 
     moves, refused = 0, 0
 
     def __init__(self, workspace):
-        self.workspace, self.told, self.asked = workspace, [], []
+        self.workspace, self.learned, self.asked = workspace, [], []
 
     def achieve(self, commands):
         executed = np.ones(commands.shape[:-1], dtype=bool)
@@ -61,27 +61,27 @@ class Watched:
         return Outcome(np.zeros_like(commands), np.ones(commands.shape[:-1], dtype=bool))
 
     def command(self, desired):
-        self.asked.append(len(self.told))
+        self.asked.append(len(self.learned))
         return desired
 
     def learn(self, desired, execute, fraction):
         execute(desired[:, None])
-        self.told.append((desired[0, 0], fraction))
+        self.learned.append((desired[0, 0], fraction))
 
 
 def test_a_learner_is_told_each_pose_in_turn_and_what_fraction_of_the_training_is_done(robot):
-    its = Watched(robot.workspace)
+    both = Watched(robot.workspace)
     desired, tests = np.zeros((1, 4, 6)), np.zeros((1, 3, 6))
     desired[0, :, 0] = 0.1, 0.2, 0.3, 0.4
     tests[0, :, 0] = 1.0, -1.0, 0.5
-    seen = []
-    history = train(its, its, desired, tests, [0, 3, 4], lambda *said: seen.append(said))
-    assert its.told == [(0.1, 0.0), (0.2, 0.25), (0.3, 0.5), (0.4, 0.75)]
-    assert its.asked == [0, 3, 4] == history.iterations.tolist() == history.moves.tolist()
+    reported = []
+    history = train(both, both, desired, tests, [0, 3, 4], lambda *row: reported.append(row))
+    assert both.learned == [(0.1, 0.0), (0.2, 0.25), (0.3, 0.5), (0.4, 0.75)]
+    assert both.asked == [0, 3, 4] == history.iterations.tolist() == history.moves.tolist()
     # a quarter of a metre to either side, and half of that
     assert history.position[0] == pytest.approx(np.tile([0.25 * 2.5 / 3, 0.25, 0.25], (3, 1)))
     assert np.abs(history.orientation).max() < 1e-7
-    assert seen[1] == (3, pytest.approx(25 * 2.5 / 3), pytest.approx(0, abs=1e-5))
+    assert reported[1] == (3, pytest.approx(25 * 2.5 / 3), pytest.approx(0, abs=1e-5))
 
 
 def test_one_robot_has_no_run_axis(history, controller, damaged, poses):

@@ -59,8 +59,8 @@ def test_a_learner_goes_on_from_its_file(kind, moves, more, makers, plant, robot
     assert type(loaded) is type(learner)
     assert json.dumps(loaded.settings()) == json.dumps(learner.settings())
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
-    for its in (learner, loaded):
-        train(its, plant, moves + more, first=moves)
+    for trained in (learner, loaded):
+        train(trained, plant, moves + more, first=moves)
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
 
 

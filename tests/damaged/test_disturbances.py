@@ -52,7 +52,7 @@ def test_joints_stop_beside_their_angle():
     stops = Disturbances(repeatability=Repeatability(1e-4)).of_joints(generators(5, 6), (3000, 6))
     assert stops.shape == (2, 3000, 6)
     assert np.std(stops, axis=1) == pytest.approx(np.full((2, 6), 1e-4), rel=0.05)
-    assert np.abs(np.corrcoef(stops[..., 0])[0, 1]) < 0.1, "each run with luck of its own"
+    assert np.abs(np.corrcoef(stops[..., 0])[0, 1]) < 0.1, "each run with random numbers of its own"
 
 
 def test_what_an_instrument_adds_does_not_depend_on_where_the_arm_stands():
@@ -64,8 +64,8 @@ def test_what_an_instrument_adds_does_not_depend_on_where_the_arm_stands():
     added = []
     for poses in (np.tile(np.eye(4), (1, 5, 1, 1)), moved):
         measured = disturbances.measure(generators(3), poses)
-        turns = measured[..., :3, :3] @ poses[..., :3, :3].swapaxes(-1, -2)
-        added.append((measured[..., :3, 3] - poses[..., :3, 3], turns))
+        rotations = measured[..., :3, :3] @ poses[..., :3, :3].swapaxes(-1, -2)
+        added.append((measured[..., :3, 3] - poses[..., :3, 3], rotations))
     for one, other in zip(*added, strict=True):
         np.testing.assert_allclose(one, other, rtol=0, atol=1e-12)
 
@@ -96,8 +96,8 @@ def test_a_joint_that_slides_does_not_miss_its_place_by_an_angle(tmp_path, comma
 
     plant = Plant(controller, Arm(), Disturbances(repeatability=Repeatability(1e-3)), generators(7))
     plant.execute(commands[:1])
-    missed = stops[-1] - controller.targets(commands[:1]).angles[0]
-    assert missed.std(axis=0) == pytest.approx([0, *[1e-3] * 6], rel=0.4)
+    errors = stops[-1] - controller.targets(commands[:1]).angles[0]
+    assert errors.std(axis=0) == pytest.approx([0, *[1e-3] * 6], rel=0.4)
 
 
 def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, commands):

@@ -20,12 +20,12 @@ def at_work(project: Project, process: subprocess.Popen) -> list[psutil.Process]
     """The jobs of a run as soon as some are at work; none if it ends before."""
     found, folder = [], str(project.folder / ".snakemake" / "scripts")
 
-    def seen() -> bool:
+    def some_at_work() -> bool:
         running = psutil.process_iter(["cmdline"])
-        found[:] = [its for its in running if folder in " ".join((its.info["cmdline"] or [])[:2])]
+        found[:] = [job for job in running if folder in " ".join((job.info["cmdline"] or [])[:2])]
         return bool(found) or process.poll() is not None
 
-    wait_until("a job is at work", seen)
+    wait_until("a job is at work", some_at_work)
     return found
 
 
@@ -72,7 +72,7 @@ class Yard:
     @cached_property
     def _undisturbed(self) -> Project:
         project = self.bare()
-        project.run().well()
+        project.run().expect_success()
         return project
 
     @cached_property

@@ -74,7 +74,7 @@ def written_out(learner, desired, start, rates):
     if rules.initial is not None and not rules.theta_increments:
         shape = (*map(len, grids), 6)
         start_theta = np.random.default_rng(rules.initial).uniform(-1, 1, shape)
-    every = []
+    of_runs = []
     for poses in desired:
         maps = [SlowMap(*grids, outputs, start_theta) for outputs in rules.maps.values()]
         for t, u in enumerate(poses):
@@ -88,8 +88,8 @@ def written_out(learner, desired, start, rates):
                 np.array(rules.metric),
                 np.array(rules.width_units),
             )
-        every.append(maps)
-    return every
+        of_runs.append(maps)
+    return of_runs
 
 
 @pytest.mark.parametrize(("switches", "convention"), CASES)
@@ -108,10 +108,10 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, conve
     ]
     assert np.allclose(learner.command(tests), expected, atol=1e-12)
     for run, maps in enumerate(learner.state()):
-        for held, its in zip(maps.values(), slow[run], strict=True):
+        for held, expected_map in zip(maps.values(), slow[run], strict=True):
             for k, l in product(range(6), range(4)):
-                assert np.allclose(held["theta"][k, l], its.theta[k, l], atol=1e-12)
-                assert np.allclose(held["jacobian"][k, l], its.A[k, l], atol=1e-12)
+                assert np.allclose(held["theta"][k, l], expected_map.theta[k, l], atol=1e-12)
+                assert np.allclose(held["jacobian"][k, l], expected_map.A[k, l], atol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -31,23 +31,23 @@ def test_looking_back_gets_rarer_and_never_lacks_more_than_a_fifth():
 
 def test_the_process_is_that_of_the_moves_that_were_carried_out():
     learner = observed(GaussianProcessLearner(runs=2), 0, MOVES)
-    asked = np.random.default_rng(4).uniform(-1, 1, (2, 3, 6))
-    commands = learner.command(asked)
+    desired = np.random.default_rng(4).uniform(-1, 1, (2, 3, 6))
+    commands = learner.command(desired)
     for run in range(2):
-        its = EXECUTED[run]
-        process = Process(ACHIEVED[run, its], (SENT - ACHIEVED)[run, its])
-        np.testing.assert_allclose(commands[run], asked[run] + process.predict(asked[run]))
+        executed = EXECUTED[run]
+        process = Process(ACHIEVED[run, executed], (SENT - ACHIEVED)[run, executed])
+        np.testing.assert_allclose(commands[run], desired[run] + process.predict(desired[run]))
 
 
 def test_hyperparameters_are_sought_anew_when_the_moves_have_doubled_and_kept_between():
-    learner, seen = GaussianProcessLearner(runs=2), []
+    learner, hyperparameters = GaussianProcessLearner(runs=2), []
     for move in range(MOVES):
         state = observed(learner, move, move + 1).state()[1]
         assert state["moves"]["executed"].shape == (move + 1,)
-        seen.append(tuple(state["process"]["hyperparameters"]))
+        hyperparameters.append(tuple(state["process"]["hyperparameters"]))
     # fewer than six moves say nothing of them; from eight on they are sought, and at sixteen anew
-    assert len({*seen[:7]}) == 1 != len({*seen[6:8]})
-    assert len({*seen[7:]}) == 1
+    assert len({*hyperparameters[:7]}) == 1 != len({*hyperparameters[6:8]})
+    assert len({*hyperparameters[7:]}) == 1
     lengths = [len(observed(learner, 0, 0).state()[run]["process"]["inputs"]) for run in (0, 1)]
     assert lengths == [MOVES - 1, MOVES]
 
@@ -79,11 +79,11 @@ PRIOR, NOISE = (0.3, 0.1, 0.03), 0.003
 def features(points, degree):
     """Every product of up to so many coordinates, and its degree."""
     products = [
-        chosen
-        for each in range(degree + 1)
-        for chosen in combinations_with_replacement(range(6), each)
+        indices
+        for count in range(degree + 1)
+        for indices in combinations_with_replacement(range(6), count)
     ]
-    columns = [np.prod(points[:, list(chosen)], axis=1) for chosen in products]
+    columns = [np.prod(points[:, list(indices)], axis=1) for indices in products]
     return np.stack(columns, axis=1), np.array([*map(len, products)])
 
 
@@ -98,12 +98,12 @@ def test_what_is_learned_is_the_regularised_least_squares_solution(degree):
     for first, last in ((0, 1), (1, 8), (8, 25)):  # one at a time or several: no difference
         moves = slice(first, last)
         learner.observe(sent[:, moves], achieved[:, moves], executed[:, moves])
-    asked = rng.uniform(-1, 1, (2, 4, 6))
-    commands = learner.command(asked)
+    desired = rng.uniform(-1, 1, (2, 4, 6))
+    commands = learner.command(desired)
     for run in range(2):
-        there, degrees = features(achieved[run, executed[run]], degree)
-        missed = (sent - achieved)[run, executed[run]]
+        columns, degrees = features(achieved[run, executed[run]], degree)
+        errors = (sent - achieved)[run, executed[run]]
         weights = np.diag((NOISE / np.array(PRIOR)[degrees]) ** 2)
-        solved = np.linalg.solve(there.T @ there + weights, there.T @ missed)
-        expected = asked[run] + features(asked[run], degree)[0] @ solved
+        coefficients = np.linalg.solve(columns.T @ columns + weights, columns.T @ errors)
+        expected = desired[run] + features(desired[run], degree)[0] @ coefficients
         np.testing.assert_allclose(commands[run], expected, rtol=0, atol=1e-9)

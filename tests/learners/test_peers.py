@@ -32,7 +32,7 @@ DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 40, 6))
 TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
 
 
-def taught(learner, plant, moves):
+def trained(learner, plant, moves):
     for move in range(moves):
         learner.learn(DESIRED[:, move], plant.execute, move / moves)
     return learner
@@ -56,9 +56,9 @@ def test_a_learner_that_has_learned_nothing_commands_what_is_desired(kind, maker
 def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
     kind, makers, controller, damaged
 ):
-    """Also beside a run whose moves are refused; a learner of today moves once."""
+    """Also next to a run whose moves are refused; a learner of today moves once."""
     plant, sent = Plant(controller, damaged), []
-    beside, alone = makers[kind](runs=2), makers[kind](runs=1)
+    together, alone = makers[kind](runs=2), makers[kind](runs=1)
 
     def refuse_the_first(commands):
         sent.append(commands.shape)
@@ -66,10 +66,10 @@ def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
         return Outcome(outcome.achieved, outcome.executed & np.array([[False], [True]]))
 
     for move in range(3):
-        beside.learn(DESIRED[:, move], refuse_the_first, move / 40)
+        together.learn(DESIRED[:, move], refuse_the_first, move / 40)
         alone.learn(DESIRED[1:, move], plant.execute, move / 40)
     assert sent == [(RUNS, 1, 6)] * 3 * (1 + (kind == "hierarchical"))
-    commands = beside.command(TESTS)
+    commands = together.command(TESTS)
     assert commands[0] == pytest.approx(TESTS[0], abs=1e-14)
     assert np.abs(commands[1] - TESTS[1]).max() > 1e-2
     assert np.array_equal(commands[1:], alone.command(TESTS[1:]))
@@ -88,7 +88,7 @@ def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
 def test_errors_fall(name, moves, position, orientation, robot, controller, damaged):
     plant = Plant(controller, damaged)
     before = errors(make_peer(name, RUNS, robot), plant)
-    after = errors(taught(make_peer(name, RUNS, robot), plant, moves), plant)
+    after = errors(trained(make_peer(name, RUNS, robot), plant, moves), plant)
     assert after[0] < min(position, before[0] / 3)
     assert after[1] < min(orientation, before[1] / 3)
 
@@ -100,7 +100,7 @@ def test_the_hybrid_learns_what_no_geometry_explains(controller, robot):
     )
     plant = Plant(controller, arm)
     geometric, hybrid = (
-        errors(taught(make_peer(name, RUNS, robot), plant, 16), plant)
+        errors(trained(make_peer(name, RUNS, robot), plant, 16), plant)
         for name in ("geometric", "hybrid")
     )
     assert geometric[1] > 0.1
@@ -124,8 +124,8 @@ def redundant() -> Controller:
     return Controller(panda())
 
 
-def left(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
-    """The part of both initial errors that is left."""
+def remaining(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
+    """The shares of both initial errors that remain, averaged over runs."""
     random, workspace = np.random.default_rng(5), plant.workspace
     poses = workspace.sample(random, runs, iterations), workspace.sample(random, runs, 50)
     history = train(plant, learner, *poses, [0, iterations])
@@ -143,18 +143,18 @@ def left(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
 )
 def test_a_learner_recalibrates_seven_joints(make, iterations, most, redundant):
     plant = Plant(redundant, apply(redundant.robot, DAMAGES))
-    assert np.all(left(make(redundant), plant, iterations) < most)
+    assert np.all(remaining(make(redundant), plant, iterations) < most)
 
 
 def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_path):
     (path := tmp_path / "railed.urdf").write_text(RAILED)
-    turns = {"pan": 0.3, "lift": -0.8, "elbow": 1.4, "bend": -0.4, "twist": 1.1, "turn": 0.5}
+    home = {"pan": 0.3, "lift": -0.8, "elbow": 1.4, "bend": -0.4, "twist": 1.1, "turn": 0.5}
     sides = [0.2, 0.2, 0.2], np.radians([20, 20, 20])
-    robot = load_robot(path, "link_7", {"rail": 0.2} | turns, *sides)
+    robot = load_robot(path, "link_7", {"rail": 0.2} | home, *sides)
     controller = Controller(robot)
     slid = controller.targets(robot.workspace.sample(np.random.default_rng(4), 1, 20)).angles
     assert np.ptp(slid[..., 0]) > 0.02  # m
     plant = Plant(controller, apply(robot, [EncoderShift("elbow", 0.05)]))
-    assert np.all(left(GeometricLearner(controller, runs=2), plant, 12) < 1e-6)
+    assert np.all(remaining(GeometricLearner(controller, runs=2), plant, 12) < 1e-6)
     with pytest.raises(UnknownName, match="unknown turning joint 'rail'; expected: bend"):
         apply(robot, [EncoderShift("rail", 0.05)])

@@ -100,8 +100,8 @@ def test_an_installed_description_is_found_by_its_name(monkeypatch, tmp_path):
 def test_what_hangs_on_fixed_joints_alone_is_no_end_of_the_arm(load):
     """Such as a camera on the base."""
     camera = '<link name="camera"/><joint name="mount" type="fixed"><parent link="base"/>'
-    beside = GANTRY.replace("</robot>", f'{camera}<child link="camera"/></joint></robot>')
-    assert load(beside).tool == load(GANTRY).tool
+    with_camera = GANTRY.replace("</robot>", f'{camera}<child link="camera"/></joint></robot>')
+    assert load(with_camera).tool == load(GANTRY).tool
 
 
 def test_what_is_still_to_be_expanded_is_refused_whatever_its_name(load):

@@ -73,7 +73,7 @@ def test_unknown_coordinates_are_refused_with_the_known_ones():
 
 
 @pytest.mark.parametrize(
-    ("numbers", "turns", "most"),
+    ("numbers", "angles", "most"),
     [
         ("roll_pitch_yaw", [10, 90, 10], "a pitch below 90 deg"),
         ("roll_pitch_yaw", [180, 10, 10], "roll and yaw below 180 deg"),
@@ -81,14 +81,14 @@ def test_unknown_coordinates_are_refused_with_the_known_ones():
     ],
 )
 def test_a_workspace_in_which_orientations_have_several_coordinates_is_refused(
-    numbers, turns, most
+    numbers, angles, most
 ):
-    def box(turns):
-        return Workspace(CENTRE, np.array([0.1, 0.1, 0.1, *np.radians(turns)]), numbers)
+    def box(angles):
+        return Workspace(CENTRE, np.array([0.1, 0.1, 0.1, *np.radians(angles)]), numbers)
 
     with pytest.raises(InvalidSetting, match=f"half_ranges of orientation is .*{most}"):
-        box(turns)
-    workspace = box(0.98 * np.array(turns))
+        box(angles)
+    workspace = box(0.98 * np.array(angles))
     corners = np.array([*product((-1, 1), repeat=6)], dtype=float)
     again = workspace.to_coordinates(workspace.to_poses(corners))
     np.testing.assert_allclose(again, corners, rtol=0, atol=1e-9)

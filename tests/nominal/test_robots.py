@@ -47,11 +47,11 @@ def test_an_impossible_robot_is_refused_with_what_would_be_valid(plan, change, e
 def test_names_may_stand_in_any_order(robot):
     home = dict(zip(robot.joints, robot.home, strict=True))
     limits = {joint: (-3.0 - index, 3.0 + index) for index, joint in enumerate(robot.joints)}
-    home, limits = (dict(reversed(its.items())) for its in (home, limits))
-    its = load_robot(robot.urdf, "tool0", home, *SIDES, limits=limits)
-    assert np.array_equal(its.home, robot.home)
-    assert its.lower.tolist() == [-3, -4, -5, -6, -7, -8]
-    assert its.upper.tolist() == [3, 4, 5, 6, 7, 8]
+    home, limits = (dict(reversed(values.items())) for values in (home, limits))
+    loaded = load_robot(robot.urdf, "tool0", home, *SIDES, limits=limits)
+    assert np.array_equal(loaded.home, robot.home)
+    assert loaded.lower.tolist() == [-3, -4, -5, -6, -7, -8]
+    assert loaded.upper.tolist() == [3, 4, 5, 6, 7, 8]
 
 
 def test_the_home_of_a_joint_that_slides_is_a_length():

@@ -8,7 +8,7 @@ from importlib.util import find_spec
 import pytest
 
 from tests.faults.yard import at_work
-from tests.project import Project, ended, kill
+from tests.project import Project, kill, outcome_of
 from tests.slurm.cluster import Cluster, missing
 
 pytestmark = [
@@ -53,7 +53,7 @@ class Trainings:
 
     def results(self) -> tuple[dict[str, bytes], str]:
         """Wait for its end; the contents of its files by their paths, and its output."""
-        output = ended(self._process).well().said
+        output = outcome_of(self._process).expect_success().output
         folder = self._project.results / self._name
         files = [folder / "summary.csv", *(folder / "runs").rglob("*.*")]
         return {str(path.relative_to(folder)): path.read_bytes() for path in files}, output

@@ -53,9 +53,9 @@ def results(tmp_path):
 def test_what_a_killed_run_left_is_swept_up_and_nothing_else(results):
     assert len(list(results.rglob(".*"))) == 2
     hold([str(results)])
-    left = {str(path.relative_to(results)) for path in results.rglob("*") if path.is_file()}
+    remaining = {str(path.relative_to(results)) for path in results.rglob("*") if path.is_file()}
     (elsewhere,) = (results / "studies/b/runs").iterdir()
-    assert left == {"runs/b.parquet", MARK, str(elsewhere.relative_to(results))}
+    assert remaining == {"runs/b.parquet", MARK, str(elsewhere.relative_to(results))}
 
 
 def test_a_folder_is_held_until_the_process_ends(tmp_path):
@@ -98,13 +98,13 @@ WORKING = "print('at work', flush=True); import time; time.sleep(600)"
 
 
 def test_a_job_ends_at_once_and_without_a_word():
-    its = subprocess.Popen(
+    process = subprocess.Popen(
         [sys.executable, "-c", WORKING],
         env=os.environ | {"PYTHONPATH": str(ROOT / "workflow" / "start")},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )
-    its.stdout.readline()
-    its.send_signal(signal.SIGINT)
-    assert its.communicate()[1] == b""
-    assert its.returncode == -signal.SIGINT
+    process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    assert process.communicate()[1] == b""
+    assert process.returncode == -signal.SIGINT

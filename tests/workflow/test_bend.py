@@ -41,18 +41,18 @@ def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
 
 
 @pytest.mark.parametrize(
-    ("command", "said"),
+    ("command", "planned"),
     [
         ("study STUDY=my_arm", "snakemake --cores 2 --configfile my_arm.yaml --quiet"),
         ("view STUDY=my_arm", "127.0.0.1 --new results/studies/my_arm/recordings/fall.rrd"),
-        ("web STUDY=my_arm", "watch results/studies/my_arm --port 9090"),
+        ("web STUDY=my_arm", "--directory results/studies/my_arm/web 9090"),
     ],
 )
-def test_a_command_speaks_of_its_study(project, command, said):
+def test_a_command_speaks_of_its_study(project, command, planned):
     recording = project / "results/studies/my_arm/recordings/fall.rrd"
     recording.parent.mkdir(parents=True)
     recording.touch()
-    assert said in make(project, *command.split()).stdout
+    assert planned in make(project, *command.split()).stdout
 
 
 def test_a_study_without_a_file_is_refused(project):
@@ -61,18 +61,18 @@ def test_a_study_without_a_file_is_refused(project):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("# nothing yet\n", "1:1: no configuration; expected: keys with their values"),
         ("robot: [ur5\n", "2:1: no YAML: expected ',' or ']', but got '<stream end>'"),
     ],
 )
-def test_a_file_that_snakemake_cannot_read_is_named(text, said, project, monkeypatch):
+def test_a_file_that_snakemake_cannot_read_is_named(text, message, project, monkeypatch):
     monkeypatch.chdir(project)
     Path("my_leg.yaml").write_text(text, encoding="utf-8")
-    said_by_make = make(project, "study", "STUDY=my_leg").stdout
-    assert "-m replication.running.readable my_leg.yaml\n" in said_by_make
-    with pytest.raises(SystemExit, match=rf"^my_leg\.yaml:{re.escape(said)}"):
+    commands = make(project, "study", "STUDY=my_leg").stdout
+    assert "-m replication.running.readable my_leg.yaml\n" in commands
+    with pytest.raises(SystemExit, match=rf"^my_leg\.yaml:{re.escape(message)}"):
         readable.main("my_leg.yaml")
     readable.main("my_arm.yaml")
 
@@ -80,8 +80,8 @@ def test_a_file_that_snakemake_cannot_read_is_named(text, said, project, monkeyp
 @pytest.mark.slow
 def test_a_study_is_refused_with_its_mistakes_alone(tmp_path):
     (tmp_path / "my_leg.yaml").write_text("like: quick\nrobot: kuka\n", encoding="utf-8")
-    ran = Project(tmp_path, "--configfile", "my_leg.yaml").run("--dry-run")
-    *_, last = ran.badly().said.splitlines()
+    outcome = Project(tmp_path, "--configfile", "my_leg.yaml").run("--dry-run")
+    *_, last = outcome.expect_failure().output.splitlines()
     assert last.startswith("my_leg.yaml:2:1: robot is 'kuka'; expected: ur10")
 
 

@@ -16,12 +16,12 @@ TRACKED = {"function", "study", "code", "digits"}  # for Snakemake, or for the s
 
 
 def test_every_rule_fits_its_function(rules, study):
-    calling = [its for its in rules if "function" in its.params.keys()]  # noqa: SIM118
+    calling = [rule for rule in rules if "function" in rule.params.keys()]  # noqa: SIM118
     assert len(calling) > 15
     for rule in calling:
         function = resolve_name(rule.params.function)
         takes = signature(function).parameters
-        needed = {name for name, its in takes.items() if its.default is Parameter.empty}
+        needed = {name for name, parameter in takes.items() if parameter.default is Parameter.empty}
         params = {*rule.params.keys()}
         assert needed - {"study"} <= {*rule.input.keys(), *rule.output.keys(), *params}, rule
         assert params - TRACKED <= {*takes}, rule
@@ -32,21 +32,21 @@ def test_every_rule_fits_its_function(rules, study):
 def leaving(rules) -> dict:
     """By name, the rules with jobs that do not stay where Snakemake runs."""
     at_home = rules[0].workflow._localrules
-    working = [its for its in rules if its.script or its.shellcmd]
-    return {its.name: its for its in working if its.name not in at_home}
+    working = [rule for rule in rules if rule.script or rule.shellcmd]
+    return {rule.name: rule for rule in working if rule.name not in at_home}
 
 
 def test_a_rule_says_what_its_jobs_may_take_or_stays_at_home(leaving, rules):
-    asking = {its.name for its in rules if "runtime" in its.resources}
+    asking = {rule.name for rule in rules if "runtime" in rule.resources}
     assert {*leaving} == asking and len(asking) > 10
-    assert all("mem_mb" in its.resources for its in leaving.values())
+    assert all("mem_mb" in rule.resources for rule in leaving.values())
 
 
 def test_what_travels_together_may_leave_home(leaving):
     path = ROOT / "profiles" / "slurm" / "config.yaml"
     profile = yaml.safe_load(path.read_text(encoding="utf-8"))
     assert {*profile["groups"]} <= {*leaving}
-    named = {its._group for its in leaving.values() if its._group}  # `group`: on a cluster alone
+    named = {rule._group for rule in leaving.values() if rule._group}  # `group`: on a cluster alone
     assert {*profile["groups"].values()} | named == {*profile["group-components"]}
 
 

@@ -1,4 +1,4 @@
-"""The site, seen in a real browser and judged by axe."""
+"""The site in a real browser, checked by axe."""
 
 import re
 import subprocess
@@ -141,8 +141,8 @@ def test_an_arm_learns_in_the_browser_by_keyboard_on_a_narrow_screen(site, tmp_p
         elbow.send_keys(Keys.ARROW_RIGHT)
         assert elbow.get_attribute("ariaValueText") == "0.5°"
         browser.find_element(By.CSS_SELECTOR, "#try .paper").send_keys(Keys.SPACE)
-        told = browser.find_element(By.CSS_SELECTOR, ".before").text
-        before = [float(number) for number in re.findall(r"[\d.]+", told)]
+        summary = browser.find_element(By.CSS_SELECTOR, ".before").text
+        before = [float(number) for number in re.findall(r"[\d.]+", summary)]
         assert before == pytest.approx([8.3, 4.7, 0], rel=0.05), "section 7"
         browser.find_element(By.CSS_SELECTOR, "#try .learn").send_keys(Keys.ENTER)
         status = WebDriverWait(browser, PATIENCE).until(
@@ -152,7 +152,7 @@ def test_an_arm_learns_in_the_browser_by_keyboard_on_a_narrow_screen(site, tmp_p
             )
         )
         ends = zip(map(float, status.groups()), before[:2], strict=True)
-        assert all(after < 0.1 * its for after, its in ends)
+        assert all(after < 0.1 * error for after, error in ends)
         assert severe(browser) == []
 
 

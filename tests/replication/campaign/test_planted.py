@@ -43,7 +43,9 @@ def one_map(name, settings, iterations, effect):
         return np.zeros((len(settings["initial_rate"]), 2))
     base = np.log(0.3) + rates(settings) + valley(settings["pose_g_kl"], 0.4)
     optima = 0.4 * np.exp(-effect / 2), 0.4 * np.exp(effect / 2)
-    return np.stack([base + valley(settings["pose_g_k"], its, 0.1) for its in optima], axis=-1)
+    return np.stack(
+        [base + valley(settings["pose_g_k"], optimum, 0.1) for optimum in optima], axis=-1
+    )
 
 
 def by_name(worse):
@@ -119,6 +121,6 @@ def test_what_was_planted_is_found(study, world, monkeypatch):
     monkeypatch.setattr("replication.judgement.claims.claim.FEWEST", SETUPS)  # of a real campaign
     name, names, surface, effects, verdict = WORLDS[world]
     random = np.random.default_rng(len(world))
-    claim = next(its for its in claims(study) if its.statement.id == name)
+    claim = next(claim for claim in claims(study) if claim.statement.id == name)
     table = campaign(study, names, surface, effects + 0.03 * random.normal(size=SETUPS), 1)
     assert claim.comparison.verdict(claim.values(Table(table)).model()) is verdict

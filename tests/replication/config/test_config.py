@@ -1,4 +1,4 @@
-"""A mistake in the configuration is told in a sentence, with its place, before any work starts."""
+"""A mistake in the configuration is reported in a sentence with its place, before work starts."""
 
 import re
 
@@ -41,12 +41,12 @@ def mistakes_of(here, text, *overlays) -> list[str]:
     return caught.value.mistakes
 
 
-def says(row) -> list[str]:
-    """What is said of a row: a sentence, or one for each key."""
+def expected_messages(row) -> list[str]:
+    """The messages about a row: a sentence, or one for each key."""
     return row["says"] if isinstance(row["says"], list) else [row["says"]]
 
 
-def is_said(sentence: str, expected: str) -> bool:
+def matches(sentence: str, expected: str) -> bool:
     """Of an expected sentence that ends with ..., the beginning."""
     start = expected.removesuffix("...")
     return sentence.startswith(start) if expected != start else sentence == expected
@@ -65,11 +65,11 @@ def test_a_mistake_is_told_in_a_sentence_with_its_place(here, row):
     place = changed.find(row.get("at", "@"))
     changed = changed.replace("@", "", 1)
     where = position(changed, place) if place >= 0 else "1:1"
-    first, *others = says(row)
+    first, *others = expected_messages(row)
     (mistake, *rest) = sorted(
         mistakes_of(here, changed), key=lambda line: not line.startswith(f"config.yaml:{where}:")
     )
-    assert is_said(mistake, f"config.yaml:{where}: {first}")
+    assert matches(mistake, f"config.yaml:{where}: {first}")
     assert [line.split(": ", 1)[1] for line in rest] == others
 
 
@@ -82,8 +82,8 @@ def test_a_mistake_in_a_study_of_ones_own_is_told_of_the_file_that_one_wrote(her
         study_of(ROOT, [here / name])
     lines = [line.partition(":") for line in caught.value.mistakes]
     assert {source for source, _, _ in lines} == {name}
-    for (_, _, sentence), expected in zip(lines, says(row), strict=True):
-        assert is_said(sentence.strip(), expected)
+    for (_, _, sentence), expected in zip(lines, expected_messages(row), strict=True):
+        assert matches(sentence.strip(), expected)
     assert not any("config.yaml" in line for line in caught.value.mistakes)
 
 

@@ -23,9 +23,9 @@ def tables(study, tmp_path_factory) -> tuple[pd.DataFrame, ...]:
             for seed in range(SEEDS):
                 for moves in range(2, 62, 2):
                     within = learner == "hybrid" and moves >= 2 + 2 * seed
-                    its = dict(zip(ERRORS, (0.5 if within else 2 + seed, 5.0), strict=True))
-                    about = {"scenario": scenario, "learner": learner, "seed": seed, "moves": moves}
-                    rows.append(about | its)
+                    errors = dict(zip(ERRORS, (0.5 if within else 2 + seed, 5.0), strict=True))
+                    keys = {"scenario": scenario, "learner": learner, "seed": seed, "moves": moves}
+                    rows.append(keys | errors)
         paths.append(folder / f"{learner}.parquet")
         write(paths[-1], pd.DataFrame(rows).sample(frac=1, random_state=0))
     plan = {"scenarios": SCENARIOS, "learners": LEARNERS[:1], "papers": {"improved": 30}}

@@ -29,11 +29,11 @@ SUMMARY = pd.DataFrame(
 
 def test_an_interval_of_a_mean_is_students_and_stays_above_zero():
     values = 5 + np.random.default_rng(1).normal(size=20) / 20
-    its = cells_of_mean("error", values)
-    assert [*its] == ["error", "error_low", "error_high"]
+    cells = cells_of_mean("error", values)
+    assert [*cells] == ["error", "error_low", "error_high"]
     half = student.ppf(0.975, 19) * values.std(ddof=1) / np.sqrt(20)
     expected = values.mean() + half * np.array([0, -1, 1])
-    assert [*its.values()] == pytest.approx(expected, rel=1e-4)
+    assert [*cells.values()] == pytest.approx(expected, rel=1e-4)
     assert cells_of_mean("error", np.array([1e-3, 1.0]))["error_low"] > 0
     assert [*cells_of_mean("error", np.zeros(3)).values()] == [0, 0, 0]
     assert np.isnan(cells_of_mean("error", np.ones(1))["error_low"])
@@ -52,20 +52,26 @@ def test_a_summary_has_a_row_for_each_place_learner_and_length(study, tmp_path):
     small, paths = changed(study, experiments=plan | ALONE | {"robots": ("z1",)}), []
     for number, learners in enumerate(places(small).values()):
         rows = [
-            {"iterations": its, "seed": seed, "iteration": when, "moves": 2 * when, "refused": seed}
+            {
+                "iterations": iterations,
+                "seed": seed,
+                "iteration": when,
+                "moves": 2 * when,
+                "refused": seed,
+            }
             | dict.fromkeys(ERRORS, 1 + number + seed - when / 100)
             for lengths in learners.values()
-            for its in lengths
+            for iterations in lengths
             for seed in range(2)
-            for when in (0, 4, its)
+            for when in (0, 4, iterations)
         ]
         paths.append(tmp_path / f"{number}.parquet")
         write(paths[-1], pd.DataFrame(rows))
     table = summarise(small, paths)
     assert table[["robot", "scenario", "learner", "iterations"]].to_numpy().tolist() == [
-        [robot, scenario, "improved", its]
+        [robot, scenario, "improved", iterations]
         for robot, scenario in (("ur10", "links"), ("z1", "links_encoders"))
-        for its in (10, 20)
+        for iterations in (10, 20)
     ]
     assert table["seeds"].tolist() == [2] * 4 and table["moves"].tolist() == [20, 40] * 2
     assert table["refused"].tolist() == [1] * 4
@@ -109,9 +115,9 @@ def test_a_failure_names_the_training_the_value_and_the_band(tmp_path):
     write(bands := tmp_path / "bands.csv", propose(summary))
     assert "0.25" in report(summary, bands)
     write(summary, SUMMARY.assign(final_position_error_cm=[7.0, 0]))
-    told = (
+    message = (
         "1 of 4 final errors are outside of their bands\nimproved, 200 iterations, on the ur10,"
         " links: position_error_cm is 7, expected 0.2304 to 0.2756"
     )
-    with pytest.raises(RecalibError, match=told):
+    with pytest.raises(RecalibError, match=message):
         report(summary, bands)

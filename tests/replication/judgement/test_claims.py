@@ -14,7 +14,7 @@ from replication.running import write
 from replication.training import ERRORS, KINDS
 from tests.conftest import ROOT, changed
 
-SETUPS, OWN, LUCK = 24, 0.05, 0.01
+SETUPS, OWN, NOISE = 24, 0.05, 0.01
 BEST, LEFT = np.log(0.03), np.log(0.5)  # shares that the improved system and Ritter's map leave
 WORSE = 0.5  # of a logarithm: by which what the paper calls worse is
 
@@ -47,7 +47,7 @@ def world(study, paper: bool) -> pd.DataFrame:
             for number, (name, variant) in enumerate(variants(study).items()):
                 for iterations in (*lengths(variant, setup), *variant.until_reached):
                     log = _log(study, variant, iterations, paper)
-                    log += sign * PAPER.get(name, 0.0) + own[number] + LUCK * rng.normal()
+                    log += sign * PAPER.get(name, 0.0) + own[number] + NOISE * rng.normal()
                     keys = {"setup": setup, "replicate": replicate, "variant": name}
                     shares = dict.fromkeys((f"{kind}_share" for kind in KINDS), np.exp(log))
                     rows.append(keys | {"iterations": iterations, "settled": 1} | shares)
@@ -93,12 +93,13 @@ OTHERS = "weak-coupling", "initial-error", "speed-up"  # by tables of the campai
 
 
 def test_every_claim_says_all_of_itself_and_those_of_setups_are_tried(study):
-    tried = {its.statement.id for its in claims(study) if isinstance(its, OfSetups)}
+    tried = {claim.statement.id for claim in claims(study) if isinstance(claim, OfSetups)}
     assert tried == {*OF_SETUPS.split()}
-    every = [its.statement for its in claims(study)]
-    assert len({its.id for its in every}) == len(every)
-    for its in every:
-        assert its.words and its.claim and its.criterion and its.reason and its.section
+    statements = [claim.statement for claim in claims(study)]
+    assert len({statement.id for statement in statements}) == len(statements)
+    for statement in statements:
+        for field in ("words", "claim", "criterion", "reason", "section"):
+            assert getattr(statement, field), (statement.id, field)
 
 
 @pytest.mark.parametrize("name", [*OF_SETUPS.split(), *OTHERS])
@@ -112,19 +113,19 @@ def test_a_world_of_the_opposite_contradicts_it(judged, name):
 
 
 def test_a_finding_has_mean_another_setup_heterogeneity_and_luck(judged):
-    its = judged[True]["theta-increments"]
-    number, spread = its.estimates[0], its.spread
+    finding = judged[True]["theta-increments"]
+    number, spread = finding.estimates[0], finding.spread
     assert number.value == pytest.approx(np.exp(-WORSE), rel=0.05)
     assert number.interval[0] < number.value < number.interval[1]
     assert number.predictive_interval[0] < number.interval[0]
     assert spread.setups == SETUPS and spread.unsettled == 0
-    assert spread.luck_interval[0] < np.sqrt(2) * LUCK < spread.luck_interval[1]
+    assert spread.luck_interval[0] < np.sqrt(2) * NOISE < spread.luck_interval[1]
     assert spread.between_interval[0] < np.sqrt(2) * OWN < spread.between_interval[1]
     assert spread.shares[Verdict.SUPPORTED] > 0.99
-    assert its.estimates[1].system == "Ritter's one map", "beside, another system"
-    its = judged[True]["speed-up"]
-    assert its.estimates[0].value == pytest.approx(70, rel=0.1)
-    assert its.published == "a factor of 70"
+    assert finding.estimates[1].system == "Ritter's one map", "beside, another system"
+    finding = judged[True]["speed-up"]
+    assert finding.estimates[0].value == pytest.approx(70, rel=0.1)
+    assert finding.published == "a factor of 70"
 
 
 def test_without_results_nothing_is_judged(study, tmp_path):

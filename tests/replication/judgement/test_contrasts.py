@@ -63,7 +63,10 @@ def test_searches_that_have_not_converged_are_counted_in_all_that_is_compared():
 
 
 LADDER = [
-    *((0, 0, "slow", its, share, 0.01) for its, share in ((200, 0.9), (2000, 0.3), (20_000, 0.03))),
+    *(
+        (0, 0, "slow", iterations, share, 0.01)
+        for iterations, share in ((200, 0.9), (2000, 0.3), (20_000, 0.03))
+    ),
     (0, 0, "one", 200, 0.1, 0.02),
 ]
 

@@ -1,5 +1,7 @@
 """What claims, figures and pages read of a study, and what it lacks."""
 
+from operator import methodcaller
+
 import pandas as pd
 import pytest
 
@@ -32,12 +34,12 @@ def test_a_history_is_that_of_one_length_and_errors_its_first_or_last_ones_by_se
 @pytest.mark.parametrize(
     ("ask", "key"),
     [
-        (lambda its: its.history("improved", 201), r"experiments\.learners\.improved: \[201\]"),
-        (lambda its: its.history("improved", 200, "gears"), r"learners\.improved: \[200\]"),
-        (lambda its: its.mapping("widths"), "mapping/widths.parquet"),
-        (lambda its: its.outcomes(), "workflow/campaign/outcomes.csv"),
-        (lambda its: its.assignments(), "assignments/ur10.parquet"),
-        (lambda its: its.findings(), "claims.json"),
+        (methodcaller("history", "improved", 201), r"experiments\.learners\.improved: \[201\]"),
+        (methodcaller("history", "improved", 200, "gears"), r"learners\.improved: \[200\]"),
+        (methodcaller("mapping", "widths"), "mapping/widths.parquet"),
+        (methodcaller("outcomes"), "workflow/campaign/outcomes.csv"),
+        (methodcaller("assignments"), "assignments/ur10.parquet"),
+        (methodcaller("findings"), "claims.json"),
     ],
 )
 def test_what_a_study_lacks_is_named(evidence, ask, key):

@@ -26,7 +26,7 @@ def history(iterations: int) -> pd.DataFrame:
     rows = [
         {"iterations": iterations, "seed": seed, "iteration": iteration}
         | {"moves": 2 * iteration, "refused": 0}
-        | {error: its * (0.99 + 0.02 * seed) for error, its in zip(ERRORS, errors, strict=True)}
+        | {error: value * (0.99 + 0.02 * seed) for error, value in zip(ERRORS, errors, strict=True)}
         for seed in range(2)
         for iteration, errors in ((0, INITIAL), (iterations, FINAL))
     ]

@@ -52,7 +52,7 @@ two:
 def test_a_reason_stands_above_a_key_or_behind_its_value(tmp_path):
     path = tmp_path / "config.yaml"
     path.write_text(TEXT)
-    found = {name: (its.values[0], its.reason) for name, its in read_choices(path).items()}
+    found = {name: (choice.values[0], choice.reason) for name, choice in read_choices(path).items()}
     assert found["one"] == ("1", "behind it")
     assert found["two"][1] == "above it in two lines"
     assert found["two.three"] == ("{a: [1, 2], b: c}", "inner and behind")

@@ -30,7 +30,7 @@ def partial(study, project) -> Contents:
 
 
 @pytest.fixture(scope="session")
-def begun(study, project) -> Contents:
+def too_few(study, project) -> Contents:
     """Fewer setups than have a mean."""
     return Contents(study, FIGURES, project(study, FEWEST - 1))
 
@@ -42,7 +42,7 @@ def rows(page: str, head: str) -> list[list[str]]:
     return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table]
 
 
-@pytest.mark.parametrize("contents", ["complete", "partial", "begun"])
+@pytest.mark.parametrize("contents", ["complete", "partial", "too_few"])
 def test_the_readme_is_read_in_three_minutes(contents, request):
     page = render("README.md", request.getfixturevalue(contents))
     assert len(page.split()) <= 700
@@ -93,25 +93,25 @@ def test_shares_of_an_error_are_in_percent_and_ratios_are_not(complete):
     assert "%" in slow.value and "%" not in slow.text(start)
 
 
-def test_an_incomplete_campaign_says_how_many_setups_were_measured(partial, begun):
+def test_an_incomplete_campaign_says_how_many_setups_were_measured(partial, too_few):
     assert f"**{SOME} of {ALL} registered setups" in render("findings.md", partial)
     assert f"{SOME} of {ALL} registered setups" in render("README.md", partial)
-    page = render("findings.md", begun)
+    page = render("findings.md", too_few)
     assert f"**{FEWEST - 1} of {ALL} registered setups" in page
     assert f"No verdict follows from fewer than {FEWEST}." in page
     assert "Missing: `mapping/solutions.parquet`." in page
     cells = {cells[0]: cells[2:] for cells in rows(page, HEAD)}
-    (found,) = (its for claim, its in cells.items() if "make both errors small" in claim)
-    assert found == ["6.9 % (6 to 7.9 %) remains", "supported †"]
+    (result,) = (result for claim, result in cells.items() if "make both errors small" in claim)
+    assert result == ["6.9 % (6 to 7.9 %) remains", "supported †"]
 
 
-def test_until_a_verdict_follows_the_number_so_far_stands_beside_the_earlier_one(begun, complete):
-    so_far = begun.claims["theta-increments"].so_far
+def test_until_a_verdict_follows_the_number_so_far_stands_beside_the_earlier_one(too_few, complete):
+    so_far = too_few.claims["theta-increments"].so_far
     least, most = so_far.interval
     assert least < so_far.value < most
-    assert f"0.107), now {short(so_far.value)} |" in render("README.md", begun)
-    told = f"{so_far.name} {begun.claims['theta-increments'].text(so_far)}."
-    assert told in render("findings.md", begun)
+    assert f"0.107), now {short(so_far.value)} |" in render("README.md", too_few)
+    sentence = f"{so_far.name} {too_few.claims['theta-increments'].text(so_far)}."
+    assert sentence in render("findings.md", too_few)
     assert not any(claim.so_far for claim in complete.claims.values())
 
 
@@ -121,7 +121,7 @@ def test_a_readme_without_any_setup_has_the_verdicts_of_the_second_campaign(stud
     assert "supported †" in page
 
 
-@pytest.mark.parametrize("contents", ["complete", "begun"])
+@pytest.mark.parametrize("contents", ["complete", "too_few"])
 def test_what_a_run_prints_fits_a_terminal(contents, request):
     contents = request.getfixturevalue(contents)
     text = render(OUTCOME, contents)
@@ -186,8 +186,8 @@ def benchmark(study) -> tuple[pd.DataFrame, pd.DataFrame]:
         [
             {"scenario": "links_encoders", "learner": learner, "error": BOTH}
             | {"threshold": min(study.benchmark.thresholds)}
-            | dict(zip(("moves", "low", "high"), its, strict=True))
-            for learner, its in moves.items()
+            | dict(zip(("moves", "low", "high"), interval, strict=True))
+            for learner, interval in moves.items()
         ]
     )
     return errors, reached

@@ -54,8 +54,8 @@ def trained(study: Study, root: Path) -> Files:
     rows = [
         {"setup": 0, "replicate": 0, "variant": name, "iterations": ITERATIONS}
         | {
-            f"{part}_{net}": its[n]
-            for part, its in WIDTHS.items()
+            f"{part}_{net}": widths[n]
+            for part, widths in WIDTHS.items()
             for n, net in ((0, "g_k"), (1, "g_kl"))
         }
         | {"initial_width": 3.8, "initial_rate": 0.8, "final_rate": 0.4}
@@ -83,9 +83,9 @@ def trained(study: Study, root: Path) -> Files:
 @pytest.fixture(scope="session")
 def files(small, tmp_path_factory) -> Files:
     """Those of the small study, with its recordings."""
-    its = trained(small, tmp_path_factory.mktemp("results"))
-    record(small, *its)
-    return its
+    written = trained(small, tmp_path_factory.mktemp("results"))
+    record(small, *written)
+    return written
 
 
 @pytest.fixture(scope="session")

@@ -14,8 +14,8 @@ from tests.replication.recording.conftest import DAMAGES, OWN, trained
 
 
 def rrd(*command) -> bool:
-    ran = subprocess.run([PROGRAM, "rrd", *command], env=quiet(), capture_output=True)
-    return ran.returncode == 0
+    process = subprocess.run([PROGRAM, "rrd", *command], env=quiet(), capture_output=True)
+    return process.returncode == 0
 
 
 def test_every_recording_is_valid_and_small(files):
@@ -39,9 +39,9 @@ def test_two_recordings_of_the_same_are_equal_and_a_millimetre_shows(small, file
         scenarios = small.scenarios | {OWN: damages}
         study = changed(small, experiments={"scenarios": (OWN,)}, scenarios=scenarios)
         (tmp_path / str(same)).mkdir()
-        its = trained(study, tmp_path / str(same))
-        record(study, *its)
-        assert rrd("compare", "--unordered", files.recordings[0], its.recordings[0]) == same
+        other = trained(study, tmp_path / str(same))
+        record(study, *other)
+        assert rrd("compare", "--unordered", files.recordings[0], other.recordings[0]) == same
 
 
 def test_a_recording_that_differs_from_the_history_is_not_written(small, files, tmp_path):

@@ -45,7 +45,7 @@ def test_each_place_has_its_damages_by_one_assignment(few, written):
     links, encoders, both, other = (
         Resolved.read(path) for place, path in files.items() if place.scenario != "intact"
     )
-    assert [type(its) for its in both.damages] == [LinkShortening, EncoderShift]
+    assert [type(damage) for damage in both.damages] == [LinkShortening, EncoderShift]
     assert both.damages == links.damages + encoders.damages
     assert (other.robot, other.scenario) == ("z1", "links_encoders")
     assert other.damages[0].link.startswith("link0"), "links of its own"

@@ -37,8 +37,8 @@ def test_a_learner_of_the_paper_moves_twice_an_iteration_by_its_settings(study, 
     assert (table["learner"] == "improved").all()
 
 
-def trained(study, folder, **its):
-    plan = {"ensemble": Ensemble(**its), "iterations": 5, "switches": False}
+def trained(study, folder, **ensemble):
+    plan = {"ensemble": Ensemble(**ensemble), "iterations": 5, "switches": False}
     few = changed(study, experiments=plan, training={"tests": 10})
     return train_ensemble(few, settings_of(few, folder / "outcomes.csv"))
 

@@ -28,9 +28,9 @@ def errors(study, tmp_path_factory):
     files = [[folder / f"{name}.{kind}" for name in learners] for kind in ("parquet", "npz")]
 
     def trained(seed: int = study.seed) -> pd.DataFrame:
-        its = changed(one, seed=seed)
-        train(its, study.robot, "links_encoders", resolved, settings, *files)
-        return summarise(its, files[0])
+        seeded = changed(one, seed=seed)
+        train(seeded, study.robot, "links_encoders", resolved, settings, *files)
+        return summarise(seeded, files[0])
 
     return trained
 

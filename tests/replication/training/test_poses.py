@@ -128,19 +128,19 @@ def all_jobs(study, folder, monkeypatch):
     write_scenarios(study, [*files.values()])
     own = files[Place(study.robot, study.scenario)]
     for place, learners in places(study).items():
-        its = [
+        outputs = [
             [folder / f"{place.scenario}.{name}{ending}" for name in learners]
             for ending in (".parquet", ".npz")
         ]
-        train.train(study, *place, files[place], settings, *its)
+        train.train(study, *place, files[place], settings, *outputs)
     for learner in ("improved", "ritter"):
         tune(study, learner, own)
     ensemble.train_ensemble(study, settings)
     for learner in ("affine", "improved"):
         benchmark.compete(study, learner, settings)
     measured.learn(study, own, settings)
-    said = type("Said", (), {"target": np.eye(4)})
-    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
+    description = type("Description", (), {"target": np.eye(4)})
+    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: description)
     for name in ("read_of", "identified", "Plant"):
         monkeypatch.setattr(real_arm, name, lambda *_: None)
     real_arm.learn(study, "improved", *[folder] * 3, settings)
@@ -159,7 +159,7 @@ def test_no_test_pose_of_any_job_was_learned_from_or_searched_with(
     assert drawn.seeds == {few.seed}, "and from nothing else"
     tests = np.concatenate(drawn.tests[ResultPoses])
     searched = np.concatenate(drawn.tests[SearchPoses])
-    learned = np.concatenate([its for kind in drawn.desired.values() for its in kind])
+    learned = np.concatenate([desired for kind in drawn.desired.values() for desired in kind])
     assert min(map(len, map(np.unique, (tests, searched, learned)))) > 500
     for some, others in ((tests, learned), (tests, searched), (searched, learned)):
         assert not np.isin(some, others).any()
@@ -172,5 +172,5 @@ def test_the_first_setups_of_the_campaign_and_their_replicates_share_no_poses():
         for number in range(3)
         for replicate in range(2)
     ]
-    poses = np.concatenate([np.append(its.desired, its.tests) for its in drawn])
+    poses = np.concatenate([np.append(draw.desired, draw.tests) for draw in drawn])
     assert len(np.unique(poses)) == len(poses)

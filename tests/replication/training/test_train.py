@@ -89,5 +89,5 @@ def test_moves_that_the_controller_refused_by_the_end_are_told(job, monkeypatch,
     history = SimpleNamespace(refused=np.array([[0, 0, 2], [0, 1, 1]]), columns=columns.copy)
     monkeypatch.setattr(module, "train_for_results", lambda *_: history)
     train(*job[0])
-    said = capsys.readouterr().err
-    assert "improved, 6 iterations, on links: the controller refused 3 moves" in said
+    message = capsys.readouterr().err
+    assert "improved, 6 iterations, on links: the controller refused 3 moves" in message
