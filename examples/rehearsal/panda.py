@@ -48,7 +48,7 @@ if __name__ == "__main__":
     rows: list[list[str | float]] = []
     while len(rows) < 15:
         station.move(HOME + rng.uniform(-0.35, 0.35, 7))
-        if (seen := station.measure()) is not None:
-            rows.append([str(seen["picture"]).split("/")[-1], *station.angles()])
+        if (row := station.measure()) is not None:
+            rows.append([str(row["picture"]).split("/")[-1], *station.angles()])
     with open("joints.csv", "w", newline="") as file:
         csv.writer(file).writerows([["picture", *(f"{it} [rad]" for it in station.joints)], *rows])

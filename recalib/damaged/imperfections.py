@@ -130,12 +130,12 @@ def _forms(value: Any) -> list[str]:
     """The keys that kinds need, those with a key of this value if there are such kinds."""
     keys = {kind: [field.name for field in fields(kind)] for kind in _kinds()}
     given = {*value} if isinstance(value, Mapping) else set()
-    alike = [kind for kind, its in keys.items() if given.intersection(its)]
+    alike = [kind for kind, names in keys.items() if given.intersection(names)]
     needed = {
         kind: [field.name for field in fields(kind) if field.default is MISSING] or keys[kind]
         for kind in alike or keys
     }
-    return [f"{{{', '.join(its)}}}" for its in needed.values()]
+    return [f"{{{', '.join(names)}}}" for names in needed.values()]
 
 
 def _notes(hint: Any) -> Iterator[Any]:

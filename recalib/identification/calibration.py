@@ -251,7 +251,7 @@ def calibrations(
 ) -> list[Calibration]:
     """Those of all error models, without a process; see `calibrate`, and for a start `identify`."""
     models = [ErrorModel(arm, terms, frames) for terms in candidates]
-    return [Calibration(its, identify(its, observations, start, weights)) for its in models]
+    return [Calibration(model, identify(model, observations, start, weights)) for model in models]
 
 
 def choose(candidates: Sequence[Calibration]) -> int:

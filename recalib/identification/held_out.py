@@ -124,7 +124,7 @@ def _divided(
     """
     parts, groups = divide(np.arange(len(postures))), observations.groups
     for group in range(groups.max() + 1):
-        its = np.unique(postures.numbers[groups == group])
-        if np.ptp(parts[its]) == 0:
-            parts[its] = divide(its)
+        members = np.unique(postures.numbers[groups == group])
+        if np.ptp(parts[members]) == 0:
+            parts[members] = divide(members)
     return parts[postures.numbers]

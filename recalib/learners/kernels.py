@@ -143,9 +143,9 @@ def respond(
         for each in range(6 // outputs):
             first = each * outputs
             for update in range(waiting):
-                near = cells.g_k[run, each, update, k] * cells.g_kl[run, each, update, l]
-                rate_theta = cells.rates[run, update, THETA] * near
-                rate_jacobian = cells.rates[run, update, JACOBIAN] * near
+                neighbourhood = cells.g_k[run, each, update, k] * cells.g_kl[run, each, update, l]
+                rate_theta = cells.rates[run, update, THETA] * neighbourhood
+                rate_jacobian = cells.rates[run, update, JACOBIAN] * neighbourhood
                 for output in range(outputs):
                     star = cells.theta_star[run, each, update, output]
                     if not increments[THETA]:

@@ -48,11 +48,11 @@ KINDS = {
 
 def kind_of(learner: object) -> str:
     """The kind of a learner. Raises UnknownName."""
-    its = type(learner)
+    learner_class = type(learner)
     for name, kind in KINDS.items():
-        if kind.home == f"{its.__module__}:{its.__qualname__}":
+        if kind.home == f"{learner_class.__module__}:{learner_class.__qualname__}":
             return name
-    raise UnknownName("kind of learner to save", its.__name__, KINDS)
+    raise UnknownName("kind of learner to save", learner_class.__name__, KINDS)
 
 
 def class_of(kind: str) -> "type[Savable]":

@@ -87,8 +87,8 @@ class Refitting(Observer):
     def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
         before = self.moves
         new = self._sent(commands), achieved, executed
-        for name, its in zip(self._moves, new, strict=True):
-            self._moves[name] = np.concatenate([self._moves[name], its], axis=1)
+        for name, values in zip(self._moves, new, strict=True):
+            self._moves[name] = np.concatenate([self._moves[name], values], axis=1)
         if is_due(before, self.moves):
             for run, (last, kept) in enumerate(zip(self.models, self._by_run(), strict=True)):
                 sent, achieved, executed = kept.values()
@@ -97,7 +97,7 @@ class Refitting(Observer):
 
     def _by_run(self) -> list[dict[str, np.ndarray]]:
         runs = range(len(self.models))
-        return [{name: its[run] for name, its in self._moves.items()} for run in runs]
+        return [{name: values[run] for name, values in self._moves.items()} for run in runs]
 
     def _sent(self, commands: np.ndarray) -> np.ndarray:
         """What is kept (run, move, sent) of pose commands (run, move, 6)."""

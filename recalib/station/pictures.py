@@ -53,12 +53,12 @@ class BoardInPictures:
             found = find_corners(self.board, grey)
         except Unusable:
             return None
-        seen = self.board, self.lens, found
-        off = reprojection(*seen, board_pose(*seen))
+        view = self.board, self.lens, found
+        off = reprojection(*view, board_pose(*view))
         if not (typical := float(np.median(np.linalg.norm(off, axis=1)))) < WRONG:
             reason = f"its corners deviate from the given lens by {typical:.3g} px"
             raise InvalidFile(path, f"{reason}; is it this camera's?")
-        corners = good_corners(*seen)
+        corners = good_corners(*view)
         return self.add(path, corners) if len(corners.numbers) >= FEWEST else None
 
     def add(self, path: str, corners: Corners) -> Sighting:

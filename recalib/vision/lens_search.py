@@ -138,14 +138,14 @@ def _gain(views: Sequence[View], lens: Lens) -> float:
 
 def _normal(views: Sequence[View], lens: Lens, starts: Sequence[np.ndarray | None] = ()) -> _Normal:
     pairs = zip(views, starts or [None] * len(views), strict=True)
-    seen = [sighting(board, lens, view, True, False, at) for (board, view), at in pairs]
+    sightings = [sighting(board, lens, view, True, False, at) for (board, view), at in pairs]
     own = slice(len(BOARD), None)
     return _Normal(
-        [one.pose for one in seen],
-        sum(one.squares for one in seen),
-        sum(one.free for one in seen),
-        np.sum([one.information[own, own] for one in seen], axis=0),
-        np.sum([one.gradient[own] for one in seen], axis=0),
+        [one.pose for one in sightings],
+        sum(one.squares for one in sightings),
+        sum(one.free for one in sightings),
+        np.sum([one.information[own, own] for one in sightings], axis=0),
+        np.sum([one.gradient[own] for one in sightings], axis=0),
     )
 
 

@@ -94,7 +94,9 @@ def link_lengths(nominal: Arm, identified: Arm) -> tuple[np.ndarray, np.ndarray]
     origins lie.
     """
     placements = [list(arm.model.jointPlacements)[2:] for arm in (nominal, identified)]
-    right, found = (np.array([its.translation for its in arm]).reshape(-1, 3) for arm in placements)
+    right, found = (
+        np.array([placement.translation for placement in arm]).reshape(-1, 3) for arm in placements
+    )
     free = [  # directions in which each origin may be moved, in the frame of its joint
         np.eye(3) if slides else np.outer(axis, axis)
         for slides, axis in zip(nominal.slides, nominal.axes, strict=True)

@@ -69,15 +69,14 @@ def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
     if len(found) < 2 or found[0].kind != LAG:
         return found
     # at the joint coordinates of the moments at which poses were measured
-    joints, series = observations.joints.copy(), observations.series
-    rows = series == series[observations.targets == found[0].sight][0]
-    joints[rows] -= found[0].size * _speeds(joints[rows], _times(observations)[rows])
+    lag, joints, series = found[0], observations.joints.copy(), observations.series
+    rows = series == series[observations.targets == lag.sight][0]
+    joints[rows] -= lag.size * _speeds(joints[rows], _times(observations)[rows])
     punctual = replace(observations, joints=joints)
     again = identify(geometry.model, punctual, geometry.estimate, geometry.estimate.weights)
     others = _faults(replace(geometry, estimate=again), punctual, 1)
-    its = LAG, found[0].sight
-    others = [fault for fault in others if (fault.kind, fault.sight) != its]
-    return [found[0], *others][:MOST]
+    others = [fault for fault in others if (fault.kind, fault.sight) != (LAG, lag.sight)]
+    return [lag, *others][:MOST]
 
 
 def _faults(geometry: Calibration, observations: Observations, power: int) -> list[Fault]:
@@ -172,11 +171,11 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[C
     passed = np.zeros(len(observations))
     for number in np.unique(observations.series):
         rows = np.flatnonzero(observations.series == number)
-        its, clock = observations[rows], times[rows]
+        part, clock = observations[rows], times[rows]
         if clock[0] == clock[-1]:  # a camera that took one picture: nothing is late or drifts
             continue
         passed[rows] = (clock - clock[0]) / np.ptp(clock)
-        yield Candidate(LAG, rows, its.whitened(_late(geometry, its, clock))[..., None])
+        yield Candidate(LAG, rows, part.whitened(_late(geometry, part, clock))[..., None])
         yield Candidate(DRIFT, rows, moved[rows] * passed[rows, None, None])
         yield Candidate(GROWTH, rows, grown[rows] * passed[rows, None, None])
     along = passed if observations.times is None else times
@@ -219,11 +218,11 @@ class Unexplained:
 
         Returns also with which of its rows it begins, and its parameters (c,).
         """
-        its, columns, ends = candidate.rows, candidate.columns, candidate.ends
+        _, numbers, columns, ends = candidate
         products = (
             np.einsum("nkc,nkd->ncd", columns, columns),
-            np.einsum("nkc,nkp->ncp", columns, self._arm[its]),
-            np.einsum("nkc,nk->nc", columns, self._residuals[its]),
+            np.einsum("nkc,nkp->ncp", columns, self._arm[numbers]),
+            np.einsum("nkc,nk->nc", columns, self._residuals[numbers]),
         )
         rows = np.arange(ends, len(columns) - ends + 1) if ends else np.zeros(1, int)
         if not len(rows) or self._free <= columns.shape[-1]:

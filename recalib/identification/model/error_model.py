@@ -220,8 +220,8 @@ class ErrorModel:
             further = [(twist * pin.SE3(pose)).homogeneous for twist, pose in moved]
             found = replace(found, further=np.array(further))
         if found.targets_unknown:
-            its = slice(self._joints, self._joints + len(found.targets))
-            ends = zip(twists[its], self._placements[its], strict=True)
+            at_targets = slice(self._joints, self._joints + len(found.targets))
+            ends = zip(twists[at_targets], self._placements[at_targets], strict=True)
             targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
             found = replace(found, targets=np.array([pose.homogeneous for pose in targets]))
         return found

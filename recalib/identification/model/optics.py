@@ -60,9 +60,8 @@ class Optics:
         return replace(self, whitening=_whitening(self.spread + covariance))
 
     def __getitem__(self, rows: np.ndarray | slice) -> "Optics":
-        return replace(
-            self, **{name: its[rows] for name, its in vars(self).items() if name != "kinds"}
-        )
+        some = {name: values[rows] for name, values in vars(self).items() if name != "kinds"}
+        return replace(self, **some)
 
     @property
     def length(self) -> float:
