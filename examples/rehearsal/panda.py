@@ -20,7 +20,7 @@ STIFFNESS = 5e3  # N m/rad, of each gear: the arm droops by some millimetres
 
 
 class BentPanda(PicturedStation):
-    """Links are bent by 1 mm and 0.1 degrees, encoders shifted by half a degree: nobody knows."""
+    """Links are bent by 1 mm and 0.1 degrees, encoders shifted by half a degree."""
 
     def __init__(self, folder: str = "seen") -> None:
         rng, board = np.random.default_rng(1996), read_board("board/board.toml")

@@ -18,7 +18,7 @@ from recalib.identification.model.optics import Optics
 from recalib.numerics.randomness import generator
 
 FOLDS = 5
-COVERED = 0.95  # of what is measured should lie within the intervals
+COVERED = 0.95  # of measurements should lie within the intervals
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class HeldOut:
         return self.errors @ np.array([1, LEVER])[: self.errors.shape[1]]
 
     def radius(self, kind: int = 0) -> float:
-        """Within how much of their predictions 95 % of what is measured lies, in each part.
+        """The distance from predictions within which 95 % of each part's measurements lie.
 
         A covariance counts noise and what the data leave open, but not what no parameter describes:
         that is in the residuals (split conformal prediction, Lei et al. 2018). Where parts lie

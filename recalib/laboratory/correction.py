@@ -63,7 +63,7 @@ class Correction:
 
     Attributes:
         urdf: the nominal arm's file, as the user gave it; empty if there is none.
-        calibration: what was identified.
+        calibration: the identified errors of the arm, and the frames.
         learned: (n, joints) rad, or m where a joint slides, from which it was identified.
         targets: their names, in the order of their numbers.
     """

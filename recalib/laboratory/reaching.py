@@ -39,7 +39,7 @@ class Goals:
         poses: (n, 4, 4), or positions (n, 3) [m].
         postures: (n, columns) rad, m to stay near to; None if any will do.
         targets: (n,) numbers of the targets whose poses they are in the instrument's frame; None if
-            they are those of the tool link in the arm's base.
+            they are the tool link's in the arm's base.
     """
 
     poses: np.ndarray

@@ -24,7 +24,7 @@ def log_meshes(
     """Log the visual meshes of a robot, each in the frame `<prefix>/<link>` of its link.
 
     Args:
-        source: what was read of the URDF at `urdf`.
+        source: the content of the URDF at `urdf`.
 
     Returns their entities by link, links without any left out; and the names of the meshes that
     are in none of the URDF's packages and folders.

@@ -1,6 +1,6 @@
 """The kinds of today's learners and of the paper's. A new kind is named here, and nowhere else.
 
-Files of what was learned, the study's comparisons and its real arm follow from this table.
+Files of trained learners, the study's comparisons and its real arm follow from this table.
 """
 
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from recalib.errors import UnknownName
 
-if TYPE_CHECKING:  # whoever only asks for a kind need not wait for what a learner needs
+if TYPE_CHECKING:  # a look at the table does not import what learners need
     from recalib.loop.interfaces import Savable
 
 # What learners need to know.

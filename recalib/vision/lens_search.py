@@ -1,8 +1,8 @@
 """The lens by pictures of a board anywhere: its model, chosen by evidence, and its parameters.
 
 Poses of the board are not unknowns of the search: for each lens, each has its best pose. So the
-normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and what
-they leave says how far the search is from its end, in standard deviations.
+normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and
+their step gives the distance from the end of the search, in standard deviations.
 """
 
 from collections.abc import Sequence
@@ -79,7 +79,7 @@ class _Normal(NamedTuple):
 
     Attributes:
         poses: (4, 4) m of the board in the camera, in each picture.
-        squares: px^2, the sum of those of reprojection errors.
+        squares: px^2, the sum of squared reprojection errors.
         free: how many of these the poses do not make up for.
         information, gradient: (k, k) and (k,), by the parameters of the lens [px, 1].
     """
@@ -150,7 +150,7 @@ def _normal(views: Sequence[View], lens: Lens, starts: Sequence[np.ndarray | Non
 
 
 def _precision(lens: Lens, found: _Normal) -> np.ndarray:
-    """The information (k, k) of pictures on a lens, and what is known of any lens before."""
+    """The information (k, k) of pictures on a lens, with the prior of any lens."""
     prior = np.array([unit * spread for _, _, unit, spread in OPTICS])[optics_kinds(lens)]
     return found.information + np.diag(found.variance / prior**2)
 

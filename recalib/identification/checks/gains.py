@@ -16,7 +16,7 @@ FIRST_WAVE = [*JOINT_ERRORS].index("sine 1")
 
 @dataclass(frozen=True)
 class WrongGain:
-    """A joint turns, beyond what its column says, by a share of what another's says.
+    """A joint turns by its column and, in addition, by a share of another joint's column.
 
     Attributes:
         joint, by: their numbers; the same where it moves by another gain.

@@ -24,8 +24,8 @@ from recalib.identification.model.linearisation import Linearisation, displaceme
 from recalib.identification.model.observations import Observations
 
 LAG, DRIFT, GROWTH, JUMP, SLIP = "lag", "drift", "growth", "jump", "slip"
-CHANCE = 1e-6  # with which what is named would be there by chance, were all residuals noise
-SHARE = 0.15  # of the squares of residuals; those of real arms are more than noise
+CHANCE = 1e-6  # of a reported fault, were all residuals noise
+SHARE = 0.15  # of the squares of residuals; a real arm's residuals are more than noise
 MOST = 3  # faults at once
 ENDS = 5  # rows on either side of a jump
 # Times the noise: of a row that is farther off, the distance counts and not its square; and next to
@@ -46,7 +46,7 @@ class Fault:
             at once, or the target against the tool.
         row: from 0 in its series, the first one after a jump or a slip.
         turn: rad, that goes with the size.
-        sight: that of this row.
+        sight: the number of this row's sight.
     """
 
     kind: str
@@ -63,7 +63,7 @@ def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
     fault, all others are looked for without it.
 
     Args:
-        geometry: what was identified from them.
+        geometry: identified from the same rows.
     """
     found = _faults(geometry, observations, 1) or _faults(geometry, observations, 2)
     if len(found) < 2 or found[0].kind != LAG:
@@ -156,7 +156,7 @@ class Candidate(NamedTuple):
 
 
 def _candidates(geometry: Calibration, observations: Observations) -> Iterator[Candidate]:
-    """All of them, whose columns are those of whitened residuals."""
+    """All candidates, with slopes of whitened residuals."""
     times = _times(observations)
     poses = geometry.predict(observations.joints, observations.targets)
     instruments, targets = geometry.model.frames.sights[observations.targets].T

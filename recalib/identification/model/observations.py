@@ -89,7 +89,7 @@ class Observations:
 
     @property
     def kinds(self) -> int:
-        """Of what is measured in a row: 2 for position and orientation, 1 for a position alone."""
+        """The quantities in a row: 2 for position and orientation, 1 for a position alone."""
         return 2 if self.measured is not None and self.measured.ndim == 3 else 1
 
     @property

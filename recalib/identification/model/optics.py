@@ -1,7 +1,7 @@
 """Poses that were measured by cameras: how sure they are, and how they depend on their optics.
 
-What lens and board are beside what they were taken for moves all poses together: these are
-parameters of the fit, like those of the arm.
+Errors of the assumed lens and board move all poses together: they are parameters of the fit, like
+the arm's.
 """
 
 from dataclasses import dataclass, replace
@@ -24,10 +24,10 @@ OPTICS = (
 
 @dataclass(frozen=True)
 class Optics:
-    """What poses by cameras are worth, row by row. A displacement is (6,) [m, rad].
+    """The information of poses from cameras, row by row. A displacement is (6,) [m, rad].
 
-    The optics are those of each board, then those of each camera whose lens is sought. What a row
-    has nothing to do with has zeros there.
+    The optics are the parameters of each board, then of each camera whose lens is estimated. Rows
+    have zeros for boards and cameras other than their own.
 
     Attributes:
         spread: (n, 6, 6) covariances of displacements, by the noise of the corners.

@@ -181,7 +181,7 @@ def read_poses(
 
 
 def _by_headings(table: Table) -> Convention:
-    """What the headings say. Raises InvalidFile if they are those of no rotation."""
+    """The convention of rotations, by the headings. Raises InvalidFile if there is none."""
     for way in OWN:
         if all(heading in table for heading in way.headings):
             return way

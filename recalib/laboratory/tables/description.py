@@ -84,7 +84,7 @@ def _columns(given: Any) -> dict[str, str]:
 
 
 def _pose(part: str, parts: Mapping[str, Any]) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """A pose (4, 4) [m], and its deviations (6,) [m, rad]; None of what is not stated."""
+    """A pose (4, 4) [m], and its deviations (6,) [m, rad]; None if not stated."""
     if part not in parts:
         return None, None
     given = parts[part]
