@@ -120,7 +120,7 @@ def _kind_of(value: Any) -> str | None:
 
 
 def _short(entry: Imperfection, write: Callable[[Imperfection], dict[str, Any]]) -> dict[str, Any]:
-    """An entry as it is written: without what is as by default, unless all of it is."""
+    """An entry as it is written: without defaults, unless all of its fields have them."""
     written = write(entry)
     default = {field.name for field in fields(entry) if getattr(entry, field.name) == field.default}
     return {key: text for key, text in written.items() if key not in default} or written

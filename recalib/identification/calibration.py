@@ -142,7 +142,7 @@ class Calibration:
 
     @cached_property
     def _arms_to_targets(self) -> list[Arm]:
-        """Of each sight: to make one takes longer than to ask it."""
+        """The arm to the target of each sight: to make one takes longer than to use it."""
         numbers = range(len(self.model.frames.sights))
         return [self.model.arm(self.estimate.parameters, sight) for sight in numbers]
 

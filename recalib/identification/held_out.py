@@ -63,9 +63,9 @@ class HeldOut:
     def radius(self, kind: int = 0) -> float:
         """The distance from predictions within which 95 % of each part's measurements lie.
 
-        A covariance counts noise and what the data leave open, but not what no parameter describes:
-        that is in the residuals (split conformal prediction, Lei et al. 2018). Where parts lie
-        apart, that differs from one to the next, and a new place may be as bad as the worst.
+        A covariance counts noise and the parameters' uncertainty, but not errors that no parameter
+        describes: they are in the residuals (split conformal prediction, Lei et al. 2018). If parts
+        lie apart, their errors differ, and a new place may be as bad as the worst.
 
         Args:
             kind: 0 of position [m], 1 of orientation [rad].

@@ -166,7 +166,7 @@ def validate(
         full[HYBRID] = hybrid
 
     def without(rows: np.ndarray) -> dict[str, Calibration]:
-        # a model that all rows do not ask for is not tried on fewer
+        # a model that is not chosen for all rows is not tried on fewer
         tried = [NO_ERRORS, *CANDIDATES[: 1 + best * (HYBRID in full)]]
         none, *others = identified(tried, ~rows)
         found = {NOTHING: none, GEOMETRIC: others[0], HYBRID: others[choose(others)]}

@@ -21,8 +21,8 @@ class Kind(NamedTuple):
 
     Attributes:
         home: where its class is.
-        peers: as what it is compared with the paper's learners: the settings of each, by its name
-            for people.
+        peers: settings with which it is compared with the paper's learners, by the name of each
+            comparison.
         needs: what it needs to know. With the kinematics, its class can `identify`, too: see
             `GeometricLearner.identify`.
     """

@@ -176,7 +176,7 @@ class _Tree:
         self.joints = {
             joint.get("name", "").removesuffix(NAMESAKE): joint for joint in robot.iterfind("joint")
         }
-        # of links in a circle, which hang on nothing, Pinocchio knows nothing
+        # Pinocchio has no frames of links in a circle, which hang on nothing
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
         self.root = self._links[0]

@@ -91,7 +91,7 @@ def _covariances(
 def _likelihood(
     hyperparameters: np.ndarray, inputs: np.ndarray, outputs: np.ndarray
 ) -> tuple[float, np.ndarray, tuple[np.ndarray, bool], np.ndarray, np.ndarray]:
-    """The logarithm of the marginal likelihood, and what it is made of.
+    """The logarithm of the marginal likelihood, and its parts.
 
     Returns also the weights (n, k) of the points, the Cholesky factor of their covariance, and the
     latter's parts by the trend and by the smooth function.

@@ -1,4 +1,4 @@
-"""Pictures of a board: what they say, and a station that takes them as one that measures poses."""
+"""Poses by pictures of a board, and a station that takes them as one that measures poses."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -49,7 +49,7 @@ def find_lens(views: Sequence[View], size: tuple[int, int]) -> FoundLens:
     """The lens by the pictures (at least `FEWEST`) of boards anywhere.
 
     A richer model has to be far more probable than a simpler one, to be chosen, and so does a
-    fisheye. They are tried only if a simpler pinhole leaves what they could explain.
+    fisheye. They are tried only if a simpler pinhole leaves residuals that they could explain.
     """
     best = last = _best_from(views, _straight(views, size, False))
     for count in PINHOLES[1:]:

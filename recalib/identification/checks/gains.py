@@ -29,7 +29,9 @@ class WrongGain:
 
 
 def wrong_gain(geometry: Calibration, observations: Observations) -> WrongGain | None:
-    """The one that explains the most of what no arm explains; None if chance or gears may do so.
+    """The gain that explains the most of the residuals that no arm explains.
+
+    None if chance or gears may explain them.
 
     All by one joint are compared without its waves, which look alike where it turned little.
     """

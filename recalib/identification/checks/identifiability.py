@@ -21,8 +21,8 @@ from recalib.nominal.newton import solve_groups
 IDENTIFIABLE = 1.0  # the least information on an identifiable parameter, over its prior's
 POSTURES = 200  # all over the joints' ranges: they stand for all measurements of this kind
 SEATED, STEPS = 1e-9, 50  # m: how well a ball sits in its socket, and Newton's steps to there
-# Of a parameter's own information: what others leave of it where links are bent by two degrees, and
-# where they are not bent at all.
+# Of a parameter's own information: the part that others leave if links are bent by two degrees, and
+# if they are not bent at all.
 WEAK, ROUNDING = 1e-3, 1e-8
 PARTNERS, SHARE = 3, 0.3  # so many at most, whose effect is that part of the largest at least
 DIGITS = 6  # of an effect over the largest: where several targets tie, rounding does not decide
@@ -62,7 +62,7 @@ def unidentifiable_parameters(
     weak = _dependent(ordered, WEAK * np.sum(ordered**2, axis=0))
     order = _last(order, [number for number, _ in weak])
     found = dict(_dependent(root[:, order], np.full(len(order), IDENTIFIABLE)))
-    # Whatever could make up for what is open is free where other measurements are asked for it.
+    # For other measurements these come last: all that could compensate for them is free.
     again = _last(np.arange(len(order)), [*found])
     more = more[:, order[again]]
     least = ROUNDING * np.maximum(np.sum(more**2, axis=0), IDENTIFIABLE)
@@ -88,7 +88,7 @@ def _order(model: ErrorModel) -> np.ndarray:
 def _root(calibration: Calibration, observations: Observations, weights: np.ndarray) -> np.ndarray:
     """R (P, P) with R' R the data's information on parameters over their prior deviations.
 
-    R is of the slopes themselves: in their squares, what is next to nothing is lost to rounding.
+    R is of the slopes themselves: in their squares, small numbers are lost to rounding.
     """
     model, estimate = calibration.model, calibration.estimate
     parameters = estimate.parameters / model.deviations

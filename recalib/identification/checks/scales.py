@@ -91,13 +91,13 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
         float(np.linalg.norm(centres[one] - centres[other])) / length
         for one, other, length, _ in observations.distances
     ]
-    beside = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
+    errors = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
     unit = 1.0
     if observations.measured is not None and not by_cameras:
         # where no link holds the size, all may shrink to a point, and its noise with it
-        unit = max(abs(1 + beside.item()), HELD)
+        unit = max(abs(1 + errors.item()), HELD)
     remaining = float(found.noise[0] / noise / unit)
-    return [Scale(factor, remaining) for factor in [*factors, *(1 + beside).tolist()]]
+    return [Scale(factor, remaining) for factor in [*factors, *(1 + errors).tolist()]]
 
 
 def _rod(observations: Observations) -> Optics:

@@ -28,8 +28,8 @@ CHANCE = 1e-6  # of a reported fault, were all residuals noise
 SHARE = 0.15  # of the squares of residuals; a real arm's residuals are more than noise
 MOST = 3  # faults at once
 ENDS = 5  # rows on either side of a jump
-# Times the noise: of a row that is farther off, the distance counts and not its square; and next to
-# nothing where that shows no fault, as beside gross outliers
+# Times the noise: of a row that is farther off, the distance counts and not its square; if that
+# shows no fault, as among gross outliers, it hardly counts at all
 FAR = 4.0
 SMALL = 1e-3  # of the typical step: for slopes
 
@@ -145,8 +145,7 @@ class Candidate(NamedTuple):
         kind: of the fault.
         rows: (m,) numbers of the rows that it concerns, in the order of their measurement.
         columns: (m, k, c) slopes of their residuals by the fault's parameters.
-        ends: so many of them at least are on either side of where it begins; it does with the first
-            unless given.
+        ends: the fewest rows on either side of where the fault begins; 0: with the first row.
     """
 
     kind: str

@@ -32,12 +32,12 @@ class Frames:
         base_deviations, target_deviations: of translation [m] and turn [rad], before anything is
             known.
         base_unknown, targets_unknown: whether they are estimates.
-        optics_deviations: (o,) of the optics of cameras, of which there are none unless given.
+        optics_deviations: (o,) of the optics of cameras; default: none.
         further: (i, 4, 4) m, the pose of the base in the frames of further instruments, if there
             are any: then all frames are estimates.
         optics_kinds: (o,) which of `OPTICS` they are; default: the first of them.
-        sights: (s, 2) the numbers of the instrument and of the target of each sight; the first
-            instrument's of each target unless given.
+        sights: (s, 2) the numbers of the instrument and of the target of each sight; default: the
+            first instrument and each target.
         base_prior, target_prior: (6,) m and rad, standard deviations of the instrument's pose along
             the axes of the arm's base, and of the targets' along the tool's axes; none if they are
             unknown or exact. A frame that has them is an estimate.

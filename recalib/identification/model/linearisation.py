@@ -101,7 +101,7 @@ class Linearisation:
     def normal_equations(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """J' W J (kind, P, P) and J' W r (kind, P), with weights (n,) up to 1 of the rows."""
         information, doubted = self._information, np.flatnonzero(weights < 1)
-        if len(doubted):  # they are few: what they have too much
+        if len(doubted):  # they are few: take off their surplus
             information = information.copy()
             for kind, rows in self._scaled(doubted, np.sqrt(1 - weights[doubted])):
                 information[kind] -= rows.T @ rows

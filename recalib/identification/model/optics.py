@@ -32,13 +32,13 @@ class Optics:
     Attributes:
         spread: (n, 6, 6) covariances of displacements, by the noise of the corners.
         slopes: (n, 6, o) by which measured poses move with the optics.
-        information: (n, o, o) that the pictures have of the optics, whatever the poses are.
+        information: (n, o, o) of the pictures on the optics, for any poses.
         gradient: (n, o) that goes with it: its sum is zero for the best optics of the pictures.
         pixels: (n, 6, 6) to vectors as long as the root mean square of what corners move [px].
         whitening: (n, 6, 6) to displacements whose components are independent, and as large as
-            those of a typical row: in its first three m, then rad.
-        kinds: (o,) which of `OPTICS` each is; the first of them, of one board and one camera,
-            unless given.
+            a typical row's: in its first three m, then rad.
+        kinds: (o,) which of `OPTICS` each is; default: the first of them, of one board and one
+            camera.
     """
 
     spread: np.ndarray

@@ -187,7 +187,7 @@ class RunningCalibration:
         """A message if the last rows contradict those before; otherwise None."""
         for count, gate, far in ((1, WILD, FAR), (ROW, GATE, 0.0)):
             before = len(observations) - count
-            # the first calibrations are poor, and do not know it
+            # the first calibrations are worse than their covariances
             fewest = FEWEST if count == ROW else 0
             if before < fewest or not self.is_ready(observations[: max(0, before)]):
                 continue
