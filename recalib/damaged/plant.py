@@ -101,6 +101,6 @@ class Plant:
 
 
 def _chain(arms: Sequence[ForwardKinematics]) -> Chain | None:
-    """The arms side by side, if geometry alone says where they go."""
+    """The arms side by side, if geometry alone determines their poses."""
     chains = [arm.chain for arm in arms if isinstance(arm, DamagedArm) and not arm.deflections]
     return Chain.side_by_side(chains) if len(chains) == len(arms) else None

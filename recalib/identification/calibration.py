@@ -142,7 +142,7 @@ class Calibration:
 
     @cached_property
     def _arms_to_targets(self) -> list[Arm]:
-        """Of each sight: to make one takes longer than to ask it."""
+        """The arm to the target of each sight: to make one takes longer than to use it."""
         numbers = range(len(self.model.frames.sights))
         return [self.model.arm(self.estimate.parameters, sight) for sight in numbers]
 
@@ -223,9 +223,9 @@ def calibrate(
 
     Args:
         candidates: joint terms of the error models, the simplest first.
-        observations: of it.
-        frames: at both ends of the arm; the instrument's is that of its base, and the target its
-            tool, unless given.
+        observations: of the arm.
+        frames: at both ends of the arm; default: the instrument is in the frame of the arm's base,
+            and the target in that of its tool.
         last: a calibration from fewer measurements, to start from. The hyperparameters of its
             process, or that it needs none, are kept until `is_time_to_search`.
 
@@ -249,9 +249,9 @@ def calibrations(
     start: Identification | None = None,
     weights: np.ndarray | None = None,
 ) -> list[Calibration]:
-    """Those of all error models, without a process; see `calibrate`, and for a start `identify`."""
+    """The calibrations by all error models, without a process; for a start, see `identify`."""
     models = [ErrorModel(arm, terms, frames) for terms in candidates]
-    return [Calibration(its, identify(its, observations, start, weights)) for its in models]
+    return [Calibration(model, identify(model, observations, start, weights)) for model in models]
 
 
 def choose(candidates: Sequence[Calibration]) -> int:

@@ -60,7 +60,7 @@ class Identification:
             orientation [rad].
         weights: (n,) how much each measurement counted: 1, or less if it is doubted, down to 0.
         log_evidence: of the error model, up to a constant that depends on the data alone. It leaves
-            out how well known distances and pictures agree with what was found of them.
+            out how well known distances and pictures agree with the estimate.
         converged: whether the last step changed next to nothing.
     """
 
@@ -115,7 +115,7 @@ def identify(
         precision[diagonal] += 1 / variances
         try:
             step, step_norm, covariance, volume = _posterior(precision, gradient)
-        except ValueError:  # what is far off has led to where nothing can be told any more
+        except ValueError:  # a row far off has left no regular precision
             row = weights.argmin()
             valid = "what the same arm explains as the others"
             values = observations.joints if observations.measured is None else observations.measured
@@ -149,7 +149,7 @@ def identify(
 def _posterior(
     precision: np.ndarray, gradient: np.ndarray
 ) -> tuple[np.ndarray, float, np.ndarray, float]:
-    """The step of the parameters (P,) for a gradient (P,), and what is left unknown of them.
+    """The step of the parameters (P,) for a gradient (P,), and their posterior covariance.
 
     The precision (P, P) is overwritten: to find room for large matrices takes as long as to fill
     them.
@@ -194,10 +194,10 @@ def _add_known(
     precision: np.ndarray,
     gradient: np.ndarray,
 ) -> None:
-    """Add to the normal equations, (P, P) and (P,), what is known but for the rows.
+    """Add to the normal equations, (P, P) and (P,), what is known apart from the rows.
 
-    That are distances between sockets, what pictures say of their optics whatever the poses are,
-    and what is stated of frames.
+    This is: distances between sockets, the pictures' own information on their optics, and stated
+    poses of frames.
     """
     centres = model.sockets(parameters * model.deviations)
     for one, other, length, deviation in observations.distances:

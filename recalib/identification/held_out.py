@@ -18,7 +18,7 @@ from recalib.identification.model.optics import Optics
 from recalib.numerics.randomness import generator
 
 FOLDS = 5
-COVERED = 0.95  # of what is measured should lie within the intervals
+COVERED = 0.95  # of measurements should lie within the intervals
 
 
 @dataclass(frozen=True)
@@ -61,11 +61,11 @@ class HeldOut:
         return self.errors @ np.array([1, LEVER])[: self.errors.shape[1]]
 
     def radius(self, kind: int = 0) -> float:
-        """Within how much of their predictions 95 % of what is measured lies, in each part.
+        """The distance from predictions within which 95 % of each part's measurements lie.
 
-        A covariance counts noise and what the data leave open, but not what no parameter describes:
-        that is in the residuals (split conformal prediction, Lei et al. 2018). Where parts lie
-        apart, that differs from one to the next, and a new place may be as bad as the worst.
+        A covariance counts noise and the parameters' uncertainty, but not errors that no parameter
+        describes: they are in the residuals (split conformal prediction, Lei et al. 2018). If parts
+        lie apart, their errors differ, and a new place may be as bad as the worst.
 
         Args:
             kind: 0 of position [m], 1 of orientation [rad].
@@ -124,7 +124,7 @@ def _divided(
     """
     parts, groups = divide(np.arange(len(postures))), observations.groups
     for group in range(groups.max() + 1):
-        its = np.unique(postures.numbers[groups == group])
-        if np.ptp(parts[its]) == 0:
-            parts[its] = divide(its)
+        members = np.unique(postures.numbers[groups == group])
+        if np.ptp(parts[members]) == 0:
+            parts[members] = divide(members)
     return parts[postures.numbers]

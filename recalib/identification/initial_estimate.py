@@ -23,7 +23,7 @@ from recalib.numerics.randomness import generator
 from recalib.spelling import counted
 
 SETS, SPARE = 60, 3  # small sets of rows, and how many rows they have beyond the fewest
-MOST = 200  # rows to estimate from: more tell little more
+MOST = 200  # rows to estimate from: more add little
 REFINED = 6  # so many of the best estimates are refined
 ROBUST, STEPS = 5e-3, 30  # m that count as gross, and evaluations, of a refinement
 FARTHEST = 0.15  # m: an arm with a larger median error is not the one that is described

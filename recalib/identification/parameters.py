@@ -20,8 +20,8 @@ class Parameter:
         name: in words, such as offset of elbow_joint.
         unit: mm, deg or deg/Nm.
         value: in that unit.
-        deviation: its standard error, in that unit, which data and prior leave together: where the
-            data do not tell a parameter from others, it may be small because the prior is.
+        deviation: its standard error, in that unit, by the data and the prior together: if the data
+            do not identify a parameter, the deviation may be small because the prior's is.
     """
 
     name: str

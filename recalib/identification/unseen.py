@@ -17,7 +17,7 @@ from recalib.numerics.randomness import generator
 
 # m, rms: what wear of one deviation moves on rows that do not show it, and on those that would
 NOTHING, SOMETHING = 1e-4, 3e-3
-UNKNOWN = 0.1  # of the deviation of what nobody knows: as much as wear
+UNKNOWN = 0.1  # of the deviation of an unknown frame: as much as wear
 POSTURES = 40  # all over the joints' ranges
 
 

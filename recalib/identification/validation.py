@@ -30,7 +30,8 @@ from recalib.identification.unseen import Unseen
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
-# Of errors away from what was measured, and among it. The first is what a calibration is worth.
+# Of errors on postures away from those measured, and among them. The first say what a calibration
+# is worth.
 BLOCKWISE, RANDOM = WAYS = "in blocks", "at random"
 OUTLYING = 0.1  # the weight of a row below which it is grossly off: ten standard deviations
 CANDIDATES = OFFSETS, JOINT_ERRORS, JOINT_WAVES  # the joint terms that there may be
@@ -39,15 +40,15 @@ SURE = 2.0  # standard errors by which something richer has to be better, to be 
 
 @dataclass(frozen=True)
 class Validation:
-    """Errors on rows that were not learned from.
+    """Held-out errors, and the calibrations from all rows.
 
     Attributes:
-        held_out: by way of folding and by what is done. If frames are unknown, those of the
-            nominal arm are identified, too, and nothing else is.
-        postures: in which all rows are.
+        held_out: by way of folding and by what is corrected. If frames are unknown, the nominal
+            arm's are identified, too, and nothing else is.
+        postures: of all rows.
         counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
-        lost: by way of folding, (n,) whether the part of a row tells what no other rows do: without
-            it a direction of the geometry is open, and errors there are of that.
+        lost: by way of folding, (n,) whether the part of a row determines what no other rows do:
+            without it a direction of the geometry is not identifiable, and errors show only that.
         full: the calibrations from all rows.
         unsettled: whether there was more than geometry, but its identification did not converge.
     """
@@ -86,7 +87,7 @@ class Validation:
         return self.held_out[way][kind].errors
 
     def judged(self, way: str) -> np.ndarray:
-        """Rows (n,) whose errors count: those of outliers and lost directions do not.
+        """Rows (n,) whose errors count: all but outliers and rows that are `lost`.
 
         If hardly any part is left, all but outliers count.
         """
@@ -165,7 +166,7 @@ def validate(
         full[HYBRID] = hybrid
 
     def without(rows: np.ndarray) -> dict[str, Calibration]:
-        # a model that all rows do not ask for is not tried on fewer
+        # a model that is not chosen for all rows is not tried on fewer
         tried = [NO_ERRORS, *CANDIDATES[: 1 + best * (HYBRID in full)]]
         none, *others = identified(tried, ~rows)
         found = {NOTHING: none, GEOMETRIC: others[0], HYBRID: others[choose(others)]}

@@ -37,13 +37,13 @@ class Goals:
 
     Attributes:
         poses: (n, 4, 4), or positions (n, 3) [m].
-        near: (n, columns) rad, m: postures to stay near to; None if any will do.
+        postures: (n, columns) rad, m to stay near to; None if any will do.
         targets: (n,) numbers of the targets whose poses they are in the instrument's frame; None if
-            they are those of the tool link in the arm's base.
+            they are the tool link's in the arm's base.
     """
 
     poses: np.ndarray
-    near: np.ndarray | None = None
+    postures: np.ndarray | None = None
     targets: np.ndarray | None = None
 
     @classmethod
@@ -110,7 +110,7 @@ def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reache
         learned: (n, columns) rad, m to start from if the goals have no postures.
     """
     arm, simple = calibration.model.nominal, goals.reachable(calibration.model.nominal)
-    starts = [goals.near] if goals.near is not None else _nearest(calibration, learned, goals)
+    starts = _nearest(calibration, learned, goals) if goals.postures is None else [goals.postures]
     lower, upper = arm.coupling.limits
     found, errors = starts[0].copy(), np.full(len(goals), np.inf)
     reached = np.zeros(len(goals), dtype=bool)

@@ -58,7 +58,7 @@ class PolynomialLearner(Observer):
             known = executed[:, [move], None]
             gain = reach / (1 + reach @ features.swapaxes(1, 2)) * known
             residuals = (commands - achieved)[:, [move]] - features @ self._coefficients
-            residuals = np.where(known, residuals, 0)  # what was refused may be nan
+            residuals = np.where(known, residuals, 0)  # a refused move's may be nan
             self._coefficients += gain.swapaxes(1, 2) @ residuals
             self._spread -= gain.swapaxes(1, 2) @ reach
 

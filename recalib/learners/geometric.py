@@ -119,7 +119,7 @@ def angles_for(
 
     def kinematics(runs: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         pairs = zip(runs, angles, strict=True)
-        found = [calibrations[run].forward_and_jacobian(its) for run, its in pairs]
+        found = [calibrations[run].forward_and_jacobian(joints) for run, joints in pairs]
         poses, jacobians = map(np.stack, zip(*found, strict=True))
         return poses, jacobians
 

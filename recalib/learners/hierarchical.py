@@ -76,7 +76,7 @@ class HierarchicalLearner:
             name: tuple(value) if isinstance(value, list) else value
             for name, value in settings["rules"].items()
         }
-        schedule = Schedule.of_runs([Schedule(**its) for its in settings["by_run"]])
+        schedule = Schedule.of_runs([Schedule(**values) for values in settings["by_run"]])
         return cls(Rules(**rules), schedule, runs=runs)
 
     def settings(self) -> dict[str, Any]:

@@ -26,9 +26,9 @@ class Observer(ABC):
         """Learn from moves; nothing is learned from those that were refused.
 
         Args:
-            commands: (run, move, 6) what was sent.
-            achieved: (run, move, 6) what came of it.
-            executed: (run, move) whether it was carried out.
+            commands: (run, move, 6) the pose commands that were sent.
+            achieved: (run, move, 6) the poses that were reached.
+            executed: (run, move) whether the command was carried out.
 
         Raises BadMeasurement if the achieved pose is not a number, far off, or the same for all
         commands; then nothing is learned.
@@ -51,8 +51,8 @@ def is_due(before: int, moves: int) -> bool:
     """Whether to learn anew from everything, now that there are so many moves and not `before`.
 
     That is after every move up to 8, every second up to 16, every fourth up to 32, and so on:
-    what is learned from lacks at most a fifth of what is known, and hundreds of moves take little
-    more time than dozens.
+    a model lacks at most a fifth of the known moves, and hundreds of moves take little more time
+    than dozens.
     """
     stride = 2 ** max(moves.bit_length() - PLACES, 0)
     return moves // stride > before // stride
@@ -63,7 +63,7 @@ class Refitting(Observer):
 
     Args:
         runs: how many independent trainings.
-        sent: how many numbers are kept of what is sent in a move.
+        sent: how many numbers of a command are kept.
 
     Attributes:
         models: of each run; None where nothing has been learned.
@@ -87,8 +87,8 @@ class Refitting(Observer):
     def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
         before = self.moves
         new = self._sent(commands), achieved, executed
-        for name, its in zip(self._moves, new, strict=True):
-            self._moves[name] = np.concatenate([self._moves[name], its], axis=1)
+        for name, values in zip(self._moves, new, strict=True):
+            self._moves[name] = np.concatenate([self._moves[name], values], axis=1)
         if is_due(before, self.moves):
             for run, (last, kept) in enumerate(zip(self.models, self._by_run(), strict=True)):
                 sent, achieved, executed = kept.values()
@@ -97,7 +97,7 @@ class Refitting(Observer):
 
     def _by_run(self) -> list[dict[str, np.ndarray]]:
         runs = range(len(self.models))
-        return [{name: its[run] for name, its in self._moves.items()} for run in runs]
+        return [{name: values[run] for name, values in self._moves.items()} for run in runs]
 
     def _sent(self, commands: np.ndarray) -> np.ndarray:
         """What is kept (run, move, sent) of pose commands (run, move, 6)."""

@@ -91,7 +91,7 @@ class Schedule:
             initial = np.array([[*map(np.asarray, self.initial_width[name])] for name in maps])
         else:
             initial = np.broadcast_to(self.initial_width, final.shape)
-        first, last = (np.ascontiguousarray(its.transpose(2, 0, 1)) for its in (initial, final))
+        first, last = (np.ascontiguousarray(part.transpose(2, 0, 1)) for part in (initial, final))
         return first, last
 
     def of_run(self, run: int) -> "Schedule":

@@ -48,7 +48,7 @@ def load_arm(urdf: str | PathLike[str], tool: str | None = None, base: str | Non
 
 
 def arm_of(source: bytes, path: Path, tool: str | None = None, base: str | None = None) -> Arm:
-    """As `load_arm`, of what was read from a URDF; its path is for messages."""
+    """As `load_arm`, from the content of a URDF; its path is for messages."""
     tree = _Tree(source, path)
     base = tree.link("base", base or tree.root)
     tool = tree.link("tool", tool) if tool else tree.only_end(base)
@@ -176,13 +176,13 @@ class _Tree:
         self.joints = {
             joint.get("name", "").removesuffix(NAMESAKE): joint for joint in robot.iterfind("joint")
         }
-        # of links in a circle, which hang on nothing, Pinocchio knows nothing
+        # Pinocchio has no frames of links in a circle, which hang on nothing
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
         self.root = self._links[0]
 
     def link(self, role: str, name: str) -> str:
-        """The name, if it is that of a link."""
+        """The same name, if a link has it. Raises UnknownName."""
         if name not in self._links:
             raise UnknownName(f"{role} link of {self._name}", name, self._links)
         return name

@@ -1,7 +1,7 @@
 """Serial arms as arrays, for many postures at once.
 
-If a joint slides, its joint angle is a length [m]. Pinocchio says where joints and tool are
-placed, and stays the reference.
+If a joint slides, its joint angle is a length [m]. The placements of joints and
+tool come from Pinocchio, which stays the reference.
 """
 
 from collections.abc import Sequence

@@ -34,7 +34,7 @@ GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at 
 
 
 class Targets(NamedTuple):
-    """What commands ask of the joints.
+    """Joint angles for commands.
 
     Attributes:
         angles: (..., joint) rad to which they take the robots.

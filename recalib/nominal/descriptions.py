@@ -1,4 +1,4 @@
-"""Files that describe robots (URDF): where they are, what they say, and what is wrong with them."""
+"""Files that describe robots (URDF): where they are, their content, and mistakes in them."""
 
 import hashlib
 import importlib
@@ -42,8 +42,9 @@ def find_urdf(urdf: str | PathLike[str]) -> Path:
     """The file of a URDF. One of the user's own comes before one of a package.
 
     Args:
-        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or that of
-            a description in robot_descriptions.py, such as panda_description, if it is installed.
+        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the
+            name of a description in robot_descriptions.py, such as panda_description, if that is
+            installed.
 
     Raises UnknownName, or InvalidFile if it is a path and not a name.
     """
@@ -139,7 +140,7 @@ def link_of(joint: Element, role: str) -> str:
 def caught_messages() -> Iterator[list[str]]:
     """The lines that a block writes to stderr, in place of writing them; filled when it ends.
 
-    Commands tell a mistake in one sentence: lines for a compiled library's developers, which no
+    Commands report a mistake in one sentence: lines for a compiled library's developers, which no
     `sys.stderr` of Python's sees, hide it.
     """
     lines: list[str] = []
@@ -207,7 +208,7 @@ def mistakes(robot: Element, messages: list[str]) -> Iterator[str]:
 
 
 def _numbers(text: str) -> list[float] | None:
-    """The numbers in a text; None unless all of it are finite numbers."""
+    """The numbers in a text; None if any of them is not a finite number."""
     try:
         numbers = [float(number) for number in text.split()]
     except ValueError:

@@ -42,7 +42,7 @@ class Coupling:
         return columns @ self.gains.T + self.shifts
 
     def reported(self, joints: np.ndarray) -> np.ndarray:
-        """Coordinates (n, columns) that are reported, from those of all joints (n, joints)."""
+        """Coordinates (n, columns) that are reported, from all joints' (n, joints)."""
         return (joints - self.shifts) @ self._inverse.T
 
     @cached_property
@@ -56,7 +56,7 @@ class Arm:
     Args:
         model: the model, a chain of joints that turn or slide about or along one axis.
         tool: name of the link that is the tool.
-        base: name of the link in whose frame poses are, which is that of the model's world.
+        base: name of the link in whose frame poses are; it is the frame of the model's world.
         coupling: of joints that follow others; None if each joint has a motor.
     """
 

@@ -2,7 +2,7 @@
 
 A pose is a homogeneous matrix (4, 4) of the tool in the base frame, in metres. Its coordinates are
 a 6-vector u: the position (x, y, z) relative to the centre of the workspace along the base's axes,
-and three numbers for the orientation relative to that of the centre: (roll, pitch, yaw) of
+and three numbers for the orientation relative to the centre's: (roll, pitch, yaw) of
 R = R_centre Rz(yaw) Ry(pitch) Rx(roll), or a rotation vector r of R = R_centre exp([r]). They are
 divided by the half-ranges of the workspace, so that the workspace is the box [-1, 1]^6 and no norm
 mixes metres with radians.

@@ -36,9 +36,10 @@ def load_shapes(arm: Arm, urdf: str | PathLike[str]) -> tuple[pin.GeometryModel,
                 missing.append(name)
                 continue
             for shape in placed:
-                place, shape.name = carrier.placement * shape.placement, name
-                its = name, carrier.parentJoint, frame, place, shape.geometry
-                shapes.addGeometryObject(pin.GeometryObject(*its))
+                place = carrier.placement * shape.placement
+                shapes.addGeometryObject(
+                    pin.GeometryObject(name, carrier.parentJoint, frame, place, shape.geometry)
+                )
     return shapes, missing
 
 

@@ -53,8 +53,8 @@ class Corners:
 def read_picture(path: Path) -> np.ndarray:
     """A file's grey picture (height, width) as the sensor has it. Raises Unusable.
 
-    A phone on the hand says in its files how it was held, by which viewers turn them. Its lens does
-    not turn with them.
+    A phone on the hand records in its files how it was held, and viewers turn them by that. Its
+    lens does not turn with them.
     """
     try:
         if not path.is_file():
@@ -110,7 +110,7 @@ def find_corners(board: Board, picture: np.ndarray) -> Corners:
 def _charuco(
     board: Board, layout: Any, picture: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, str | None]:
-    """Numbers (c,) and pixels (c, 2) of corners by one of the layouts, and what is wrong."""
+    """Numbers (c,) and pixels (c, 2) of corners by one of the layouts, and a problem of markers."""
     settings = cv2.aruco.CharucoParameters()
     settings.tryRefineMarkers = True  # by where the others are: it finds more if out of focus
     corners, numbers, *found = cv2.aruco.CharucoDetector(layout, settings).detectBoard(picture)
@@ -136,7 +136,7 @@ def charuco_offset() -> np.ndarray:
 
 
 def are_on_a_line(board: Board, numbers: np.ndarray) -> bool:
-    """Whether no corner (c,) lies beside the line through others: they tell no pose."""
+    """Whether no corner (c,) lies beside the line through others: they determine no pose."""
     points = board.points[numbers]
     return bool(np.linalg.matrix_rank(points - points.mean(axis=0), tol=board.square / 10) < 2)
 
@@ -221,7 +221,7 @@ def _pattern(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 
 
 def _chessboard(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Corners from the upper left one, by a square's colour if it says which that is.
+    """Corners from the upper left one, by a square's colour if that decides.
 
     A board with an even number of columns and an odd one of rows, or the other way around, has one
     upper left corner that is dark. Another board looks the same upside down: it counts as upright.

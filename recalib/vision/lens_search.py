@@ -1,8 +1,8 @@
 """The lens by pictures of a board anywhere: its model, chosen by evidence, and its parameters.
 
 Poses of the board are not unknowns of the search: for each lens, each has its best pose. So the
-normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and what
-they leave says how far the search is from its end, in standard deviations.
+normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and
+their step gives the distance from the end of the search, in standard deviations.
 """
 
 from collections.abc import Sequence
@@ -49,7 +49,7 @@ def find_lens(views: Sequence[View], size: tuple[int, int]) -> FoundLens:
     """The lens by the pictures (at least `FEWEST`) of boards anywhere.
 
     A richer model has to be far more probable than a simpler one, to be chosen, and so does a
-    fisheye. They are tried only if a simpler pinhole leaves what they could explain.
+    fisheye. They are tried only if a simpler pinhole leaves residuals that they could explain.
     """
     best = last = _best_from(views, _straight(views, size, False))
     for count in PINHOLES[1:]:
@@ -79,7 +79,7 @@ class _Normal(NamedTuple):
 
     Attributes:
         poses: (4, 4) m of the board in the camera, in each picture.
-        squares: px^2, the sum of those of reprojection errors.
+        squares: px^2, the sum of squared reprojection errors.
         free: how many of these the poses do not make up for.
         information, gradient: (k, k) and (k,), by the parameters of the lens [px, 1].
     """
@@ -138,19 +138,19 @@ def _gain(views: Sequence[View], lens: Lens) -> float:
 
 def _normal(views: Sequence[View], lens: Lens, starts: Sequence[np.ndarray | None] = ()) -> _Normal:
     pairs = zip(views, starts or [None] * len(views), strict=True)
-    seen = [sighting(board, lens, view, True, False, at) for (board, view), at in pairs]
+    sightings = [sighting(board, lens, view, True, False, at) for (board, view), at in pairs]
     own = slice(len(BOARD), None)
     return _Normal(
-        [one.pose for one in seen],
-        sum(one.squares for one in seen),
-        sum(one.free for one in seen),
-        np.sum([one.information[own, own] for one in seen], axis=0),
-        np.sum([one.gradient[own] for one in seen], axis=0),
+        [one.pose for one in sightings],
+        sum(one.squares for one in sightings),
+        sum(one.free for one in sightings),
+        np.sum([one.information[own, own] for one in sightings], axis=0),
+        np.sum([one.gradient[own] for one in sightings], axis=0),
     )
 
 
 def _precision(lens: Lens, found: _Normal) -> np.ndarray:
-    """The information (k, k) of pictures on a lens, and what is known of any lens before."""
+    """The information (k, k) of pictures on a lens, with the prior of any lens."""
     prior = np.array([unit * spread for _, _, unit, spread in OPTICS])[optics_kinds(lens)]
     return found.information + np.diag(found.variance / prior**2)
 

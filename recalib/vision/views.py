@@ -93,7 +93,7 @@ class Sighting(NamedTuple):
     Attributes:
         pose: (4, 4) m of the camera in the board where it is on the hand; of the board in the
             camera otherwise.
-        squares: px^2, the sum of those of reprojection errors.
+        squares: px^2, the sum of squared reprojection errors.
         free: how many of these the pose does not make up for.
     """
 
@@ -115,7 +115,7 @@ def sighting(
     in_hand: bool,
     start: np.ndarray | None = None,
 ) -> Sighting:
-    """What a view says.
+    """The pose that a view determines, with its information on the optics.
 
     Args:
         fitted: whether the lens is sought, too; otherwise it is known.
@@ -149,7 +149,7 @@ def predicted_views(
     """Of pictures in which poses (n, 4, 4) [m] would be measured, before they are taken.
 
     Returns the slopes (n, 6, o) of `Optics`, with zeros where the board would not be found, and
-    whether most of its corners would be (n,). Arguments are those of `sighting`.
+    whether most of its corners would be (n,). Arguments as of `sighting`.
     """
     count = len(BOARD) + len(optics_kinds(lens))
     slopes, visible = np.zeros((len(poses), 6, count)), np.zeros(len(poses), dtype=bool)

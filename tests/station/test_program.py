@@ -149,7 +149,7 @@ def test_the_example_in_python_is_a_station(tmp_path, capsys):
     station = runpy.run_path(str(example))["BentUR10"]()
     fresh = station.angles() + np.random.default_rng(0).uniform(-0.7, 0.7, (50, 6))
     found = load_correction(tmp_path / "new" / "correction.npz").calibration.predict(fresh)
-    gaps = found[:, :3, 3] - [station.seen(angles) for angles in fresh]
+    gaps = found[:, :3, 3] - [station.position_at(angles) for angles in fresh]
     assert np.linalg.norm(gaps, axis=1).mean() < 5e-4
 
 

@@ -156,7 +156,7 @@ def test_corners_that_no_board_can_have_are_refused(wrong, every, observed, tmp_
     shutil.copytree(observed[0], tmp_path, dirs_exist_ok=True)
     path, random = tmp_path / "corners.csv", np.random.default_rng(0)
     header, *rows = [row.split(",") for row in path.read_text().splitlines()]
-    for name in {row[0] for row in rows} if every else ["003.png"]:
+    for name in dict.fromkeys(row[0] for row in rows) if every else ["003.png"]:
         own = [row for row in rows if row[0] == name]
         pixels = np.array([row[2:] for row in own], dtype=float)
         for row, (u, v) in zip(own, WRONG_CORNERS[wrong](pixels, random), strict=True):

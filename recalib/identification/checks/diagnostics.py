@@ -66,7 +66,7 @@ def check_estimate(geometry: Calibration, observations: Observations) -> None:
 
 
 def check_links(geometry: Calibration) -> None:
-    """Raise Untrustworthy unless links are about as long as those of the nominal arm.
+    """Raise Untrustworthy unless links are about as long as the nominal arm's.
 
     Wrong units and wrong names of sockets may be explained by another arm, without any noise.
     """
@@ -88,13 +88,15 @@ def check_links(geometry: Calibration) -> None:
 def link_lengths(nominal: Arm, identified: Arm) -> tuple[np.ndarray, np.ndarray]:
     """Lengths (joints - 1,) [m] of the links from each joint's origin to the next, of both arms.
 
-    An origin may lie anywhere on its joint's axis, and that of a joint that slides anywhere at all:
-    no measurement says where. So the origins of the identified arm are moved, as far as they may
+    An origin may lie anywhere on its joint's axis, and if the joint slides, anywhere at all: no
+    measurement determines where. So the origins of the identified arm are moved, as far as they may
     be, to where its links are most like the nominal ones. What still differs does so wherever
     origins lie.
     """
     placements = [list(arm.model.jointPlacements)[2:] for arm in (nominal, identified)]
-    right, found = (np.array([its.translation for its in arm]).reshape(-1, 3) for arm in placements)
+    right, found = (
+        np.array([placement.translation for placement in arm]).reshape(-1, 3) for arm in placements
+    )
     free = [  # directions in which each origin may be moved, in the frame of its joint
         np.eye(3) if slides else np.outer(axis, axis)
         for slides, axis in zip(nominal.slides, nominal.axes, strict=True)

@@ -29,10 +29,10 @@ LINKS = 2e-3  # rad, times a lever m: so far links that are held make an arm mis
 def returning(model: ErrorModel, observations: Observations) -> np.ndarray:
     """The covariance (6, 6) [m, rad] by which the arm does not return to a posture.
 
-    Corners tell some directions of a pose a hundred times better than others. If the arm itself
-    does not return as well, the surest directions are less sure than they look. So each pose has
-    the covariance of its corners and, in addition, this one, whose size is the most probable of a
-    few.
+    Corners determine some directions of a pose a hundred times better than others. If the arm
+    itself does not return as well, the surest directions are less sure than they look. So each pose
+    has the covariance of its corners and, in addition, this one, whose size is the most probable of
+    a few.
 
     Raises BadMeasurement, as `identify`.
     """
@@ -52,10 +52,10 @@ class Scale(NamedTuple):
     """The scale of something.
 
     Attributes:
-        factor: its size over what it is said to be.
-        remaining: the part of the noise that these sizes leave of that with the sizes that are
-            said, as positions are in the table; 0 of a board, of which nobody asks. If other
-            links than those described are the reason, or none has a length, much of it remains.
+        factor: the estimated size over the stated one.
+        remaining: the noise with the estimated sizes over the noise with the stated ones, or with
+            positions as in the table; 0 for a board, where it is not needed. If other links than
+            those described are the reason, or none has a length, much of the noise remains.
     """
 
     factor: float
@@ -63,9 +63,9 @@ class Scale(NamedTuple):
 
 
 def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Scale]:
-    """Those of each board, of each distance between sockets, or of all measured positions.
+    """The scale of each board, of each distance between sockets, or of all measured positions.
 
-    Simulated arms tell that of a board to 0.3 percent.
+    Simulated arms determine the scale of a board to 0.3 percent.
 
     Args:
         frames: an initial estimate of them, with optics if cameras measured.
@@ -91,13 +91,13 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
         float(np.linalg.norm(centres[one] - centres[other])) / length
         for one, other, length, _ in observations.distances
     ]
-    beside = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
+    errors = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
     unit = 1.0
     if observations.measured is not None and not by_cameras:
         # where no link holds the size, all may shrink to a point, and its noise with it
-        unit = max(abs(1 + beside.item()), HELD)
+        unit = max(abs(1 + errors.item()), HELD)
     remaining = float(found.noise[0] / noise / unit)
-    return [Scale(factor, remaining) for factor in [*factors, *(1 + beside).tolist()]]
+    return [Scale(factor, remaining) for factor in [*factors, *(1 + errors).tolist()]]
 
 
 def _rod(observations: Observations) -> Optics:

@@ -60,8 +60,8 @@ JOINT_WAVES = reduce(
 class ErrorModel:
     """The kinematics of an arm as a function of its parameters.
 
-    Waves and compliance are those of joints that turn; without the masses of links nothing is known
-    of gravity, and there is no compliance. Such coefficients are held at zero.
+    Only joints that turn have waves and compliance; without the masses of links gravity is unknown,
+    and there is no compliance. Such coefficients are held at zero.
 
     Args:
         arm: the nominal kinematics.
@@ -163,12 +163,12 @@ class ErrorModel:
 
     @property
     def socket_columns(self) -> slice:
-        """Which parameters are those of the sockets' centres."""
+        """Which parameters are the sockets' centres."""
         return slice(self._twists, self._optics)
 
     @property
     def optics_columns(self) -> slice:
-        """Which parameters are those of a camera's optics."""
+        """Which parameters are of the cameras' optics."""
         return slice(self._optics, self._geometry)
 
     @property
@@ -220,8 +220,8 @@ class ErrorModel:
             further = [(twist * pin.SE3(pose)).homogeneous for twist, pose in moved]
             found = replace(found, further=np.array(further))
         if found.targets_unknown:
-            its = slice(self._joints, self._joints + len(found.targets))
-            ends = zip(twists[its], self._placements[its], strict=True)
+            at_targets = slice(self._joints, self._joints + len(found.targets))
+            ends = zip(twists[at_targets], self._placements[at_targets], strict=True)
             targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
             found = replace(found, targets=np.array([pose.homogeneous for pose in targets]))
         return found

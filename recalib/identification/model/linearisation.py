@@ -67,21 +67,21 @@ class Linearisation:
         parameters = parameters * model.deviations
         for first in range(0, len(observations), BLOCK):
             block = slice(first, first + BLOCK)
-            its = observations[block]
+            batch = observations[block]
             own = None if terms is None else terms[block]
-            poses, jacobians = model.linearise(parameters, its.joints, its.targets, own)
-            if its.measured is None:
+            poses, jacobians = model.linearise(parameters, batch.joints, batch.targets, own)
+            if batch.measured is None:
                 # where the centre goes, the residual goes: the other way than with the prediction
-                by_centre = jacobians[:, :3, model.socket_columns].reshape(len(its), 3, -1, 3)
-                by_centre[np.arange(len(its)), :, its.sockets] = -np.eye(3)
-                jacobians[:, :3, model.socket_columns] = by_centre.reshape(len(its), 3, -1)
-            residuals = displacements(poses, its.reached(model.sockets(parameters)))
-            if its.optics is not None:  # measured poses move with them: the other way
+                by_centre = jacobians[:, :3, model.socket_columns].reshape(len(batch), 3, -1, 3)
+                by_centre[np.arange(len(batch)), :, batch.sockets] = -np.eye(3)
+                jacobians[:, :3, model.socket_columns] = by_centre.reshape(len(batch), 3, -1)
+            residuals = displacements(poses, batch.reached(model.sockets(parameters)))
+            if batch.optics is not None:  # measured poses move with them: the other way
                 columns = model.optics_columns
-                residuals += its.optics.slopes @ parameters[columns]
+                residuals += batch.optics.slopes @ parameters[columns]
                 jacobians = jacobians[:, : residuals.shape[1]]
-                jacobians[:, :, columns] = -its.optics.slopes
-                residuals, jacobians = its.whitened(residuals), its.whitened(jacobians)
+                jacobians[:, :, columns] = -batch.optics.slopes
+                residuals, jacobians = batch.whitened(residuals), batch.whitened(jacobians)
             for kind in range(observations.kinds):
                 part = slice(3 * kind, 3 * kind + 3)
                 self.residuals[kind, block] = residuals[:, part]
@@ -101,7 +101,7 @@ class Linearisation:
     def normal_equations(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """J' W J (kind, P, P) and J' W r (kind, P), with weights (n,) up to 1 of the rows."""
         information, doubted = self._information, np.flatnonzero(weights < 1)
-        if len(doubted):  # they are few: what they have too much
+        if len(doubted):  # they are few: take off their surplus
             information = information.copy()
             for kind, rows in self._scaled(doubted, np.sqrt(1 - weights[doubted])):
                 information[kind] -= rows.T @ rows
