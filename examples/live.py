@@ -13,11 +13,11 @@ table = Path(tempfile.mkdtemp()) / "measurements.csv"
 calibrate_live(lambda: station, arm, table, LiveSettings(most=30))
 correction = calibrate_arm("ur10_robot.urdf", table, tool="tool0").correction
 
-near = np.array([0.1, -1.0, 1.8, -2.2, -1.5, 0.1])
+command = np.array([0.1, -1.0, 1.8, -2.2, -1.5, 0.1])
 before, after = [], []
-for joints in near + np.linspace(0, 0.2, 50)[:, None]:
+for joints in command + np.linspace(0, 0.2, 50)[:, None]:
     goal = in_room(arm.forward(joints[None])[0])
-    near = correction.command(goal, near)
-    before.append(np.linalg.norm(station.seen(joints) - goal))
-    after.append(np.linalg.norm(station.seen(near) - goal))
+    command = correction.command(goal, command)
+    before.append(np.linalg.norm(station.position_at(joints) - goal))
+    after.append(np.linalg.norm(station.position_at(command) - goal))
 print(f"mean error before {1e3 * np.mean(before):.3g} mm, after {1e3 * np.mean(after):.3g} mm")

@@ -1,4 +1,4 @@
-"""Save what was learned, load it elsewhere, and correct commands with it."""
+"""Save a trained learner, load it elsewhere, and correct commands with it."""
 
 from dataclasses import replace
 from tempfile import TemporaryDirectory

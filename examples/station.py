@@ -20,12 +20,12 @@ class BentUR10:
     def angles(self) -> np.ndarray:
         return self.stands
 
-    def seen(self, angles: np.ndarray) -> np.ndarray:
+    def position_at(self, angles: np.ndarray) -> np.ndarray:
         bent = angles + np.array([0.01, -0.02, 0.015, 0.01, -0.01, 0])
         return in_room(self.arm.forward(bent[None])[0])
 
     def measure(self) -> dict[str, float | str]:
-        x, y, z = self.seen(self.stands) + 1e-4 * self.rng.normal(size=3)
+        x, y, z = self.position_at(self.stands) + 1e-4 * self.rng.normal(size=3)
         return {"x [m]": x, "y [m]": y, "z [m]": z}
 
     def stop(self) -> None: ...  # your driver stops here

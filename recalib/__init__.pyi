@@ -46,13 +46,13 @@ from .laboratory.pictures.sessions import calibrate_pictures as calibrate_pictur
 from .laboratory.reaching import NotReached as NotReached
 from .laboratory.tables.description import Description as Description
 from .laboratory.tables.description import read_description as read_description
-from .learners.gaussian_process import GaussianProcessLearner as GaussianProcessLearner
+from .learners.corrections import GaussianProcessLearner as GaussianProcessLearner
+from .learners.corrections import PolynomialLearner as PolynomialLearner
 from .learners.geometric import GeometricLearner as GeometricLearner
+from .learners.geometric import HybridLearner as HybridLearner
 from .learners.hierarchical import HierarchicalLearner as HierarchicalLearner
-from .learners.hybrid import HybridLearner as HybridLearner
 from .learners.learned import load as load
 from .learners.learned import save as save
-from .learners.polynomial import PolynomialLearner as PolynomialLearner
 from .learners.radial import RadialLearner as RadialLearner
 from .learners.rules import IMPROVED as IMPROVED
 from .learners.rules import Rules as Rules

@@ -12,7 +12,7 @@ def nearest(word: str, valid: Iterable[str]) -> str | None:
     """The valid word that is the most alike, if one is near; capitals do not count."""
     words, word = {other.casefold(): other for other in valid}, word.casefold()
     ending = _common_ending(words) if len(words) > 1 else ""
-    if ending and word.endswith(ending):  # as .urdf: it says nothing of how near names are
+    if ending and word.endswith(ending):  # as .urdf: it does not make names alike
         words = {other.removesuffix(ending): name for other, name in words.items()}
         word = word.removesuffix(ending)
     found = get_close_matches(word, words, n=1, cutoff=ALIKE)

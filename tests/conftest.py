@@ -18,6 +18,7 @@ os.environ["OMP_NUM_THREADS"] = "1"
 import numpy as np
 import pytest
 from hypothesis import settings
+from pydantic import BaseModel
 
 from recalib import (
     Arm,
@@ -25,6 +26,7 @@ from recalib import (
     DamagedArm,
     EncoderShift,
     LinkShortening,
+    RadialLearner,
     Robot,
     Rules,
     Schedule,
@@ -34,7 +36,7 @@ from recalib import (
 from recalib.learners import class_of
 from replication.config import Study, read_study
 from replication.scenarios import Nominal, Resolved, nominal_controller, resolve
-from replication.scenarios.nominal import nominal
+from replication.scenarios.nominal import nominal_of
 from replication.training import make_peer, peers
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
@@ -49,10 +51,7 @@ SHARED = "figures", "rules"  # fixtures that one process makes for all
 def loaded_with(statement: str, heavy: set[str]) -> set[str]:
     """Which heavy packages a statement imports."""
     text = f"import sys; {statement}; print(*({heavy} & sys.modules.keys()))"
-    ran = subprocess.run(
-        [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, check=True
-    )
-    return set(ran.stdout.split())
+    return {*subprocess.check_output([sys.executable, "-c", text], cwd=ROOT, text=True).split()}
 
 
 def pytest_collection() -> None:
@@ -98,7 +97,7 @@ class Plan(NamedTuple):
     study: Study
 
     def nominal(self, robot: str) -> Nominal:
-        return nominal(self.study, robot)
+        return nominal_of(self.study, robot)
 
     def resolved(self, scenario: str) -> Resolved:
         """A scenario on the study's robot."""
@@ -110,9 +109,15 @@ def plan(study) -> Plan:
     return Plan(study)
 
 
-def changed(nominal: Nominal, **entry) -> Nominal:
-    """The robot with keys of its entry changed, in SI units."""
-    return nominal.model_copy(update={"robot": nominal.robot.model_copy(update=entry)})
+def changed(model: BaseModel, **keys):
+    """A model, such as a study, with keys of it changed, and by mappings those of its parts."""
+
+    def part(own, value):
+        inner = isinstance(own, BaseModel) and isinstance(value, dict)
+        return changed(own, **value) if inner else value
+
+    update = {name: part(getattr(model, name), value) for name, value in keys.items()}
+    return model.model_copy(update=update)
 
 
 @pytest.fixture(scope="session")
@@ -132,9 +137,10 @@ def makers(robot) -> dict[str, Callable]:
     widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
     schedule = Schedule(4.0, widths, 0.8, 0.4)
     of_paper = partial(class_of("hierarchical"), rules=rules, schedule=schedule)
-    peer_of = {its.kind: name for name, its in peers().items() if its.kind}
+    peer_of = {peer.kind: name for name, peer in peers().items() if peer.kind}
     of_today = {kind: partial(make_peer, name, robot=robot) for kind, name in peer_of.items()}
-    return {"hierarchical": of_paper} | of_today
+    radial = partial(RadialLearner, rules, schedule, 0.4)
+    return {"hierarchical": of_paper, "radial": radial} | of_today
 
 
 @pytest.fixture
@@ -152,10 +158,8 @@ def load(tmp_path):
 @pytest.fixture(scope="session")
 def damaged(robot) -> DamagedArm:
     """A damage as serious as the paper's."""
-    shift = (
-        EncoderShift("elbow_joint", np.radians(4)),
-        EncoderShift("wrist_3_joint", np.radians(-3)),
-    )
+    shifts = {"elbow_joint": np.radians(4), "wrist_3_joint": np.radians(-3)}
+    shift = [EncoderShift(joint, angle) for joint, angle in shifts.items()]
     return apply(robot, [LinkShortening("forearm_link", 0.04), *shift])
 
 

@@ -18,12 +18,12 @@ def logged(path: Path) -> dict[str, Any]:
         batch = chunk.to_record_batch()
         for name in batch.schema.names:
             if "RowId" not in name:
-                its = _values(batch.column(name))
+                values = _values(batch.column(name))
                 if "blob" in name:
-                    its = len(its)
-                elif its.dtype == object:
-                    its = [len(its), *dict.fromkeys(its.tolist())]
-                found.setdefault(f"{chunk.entity_path} {name}", []).append(its)
+                    values = len(values)
+                elif values.dtype == object:
+                    values = [len(values), *dict.fromkeys(values.tolist())]
+                found.setdefault(f"{chunk.entity_path} {name}", []).append(values)
     return {key: found[key] for key in sorted(found)}
 
 

@@ -9,30 +9,19 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import psutil
-
 from tests.conftest import copy_project
 
 PATIENCE = 1200  # s, for what takes ten on a quiet machine
 
 
 class Broken(Exception):
-    """What must hold does not.
-
-    Args:
-        what: was expected.
-        said: what the run said.
-    """
-
-    def __init__(self, what: str, said: str = ""):
-        self.said = said
-        super().__init__(what)
+    """What must hold does not."""
 
 
-def expect(holds: object, what: str, said: str = "") -> None:
+def expect(holds: object, what: str) -> None:
     """Raise Broken, with what was expected, unless it holds."""
     if not holds:
-        raise Broken(what, said)
+        raise Broken(what)
 
 
 def wait_until(what: str, holds: Callable[[], object]) -> None:
@@ -44,26 +33,27 @@ def wait_until(what: str, holds: Callable[[], object]) -> None:
 
 
 @dataclass
-class Ran:
-    """How a run ended, and all that it said."""
+class Outcome:
+    """How a run ended: its exit code and all of its output."""
 
     code: int
-    said: str
+    output: str
 
-    def well(self) -> "Ran":
+    def expect_success(self) -> "Outcome":
         """Expect that it ended well."""
-        expect(self.code == 0, f"it ends well, but says {self.said}", self.said)
+        expect(self.code == 0, f"it ends well, but its output is {self.output}")
         return self
 
-    def badly(self) -> "Ran":
+    def expect_failure(self) -> "Outcome":
         """Expect that it ended with an error, and without a traceback."""
-        expect(self.code != 0, "it fails", self.said)
-        expect("Traceback" not in self.said, "it fails without a traceback", self.said)
+        expect(self.code != 0, f"it fails, but its output is {self.output}")
+        expect("Traceback" not in self.output, f"it fails without a traceback: {self.output}")
         return self
 
-    def told(self, sentence: str) -> "Ran":
-        """Expect that it ended with a sentence."""
-        expect(sentence in self.badly().said, f"it says {sentence!r}", self.said)
+    def expect_refusal(self, sentence: str) -> "Outcome":
+        """Expect that it ended with an error and that a sentence is in its output."""
+        output = self.expect_failure().output
+        expect(sentence in output, f"{sentence!r} is in its output, but this is {output}")
         return self
 
 
@@ -82,7 +72,7 @@ class Project:
 
     def start(self, *arguments: str, before=(), **options) -> subprocess.Popen:
         """Begin a run in a group of processes of its own."""
-        its = {
+        defaults = {
             "cwd": self.folder,
             "stdin": subprocess.DEVNULL,
             "stdout": subprocess.PIPE,
@@ -91,36 +81,21 @@ class Project:
             "start_new_session": True,
         }
         command = [*before, sys.executable, "-m", "snakemake", *self.given, *arguments]
-        return subprocess.Popen(command, **its | options)
+        return subprocess.Popen(command, **defaults | options)
 
-    def run(self, *arguments: str, environment: Mapping[str, str | None] = (), **options) -> Ran:
+    def run(
+        self, *arguments: str, environment: Mapping[str, str | None] = (), **options
+    ) -> Outcome:
         """Run to the end; None takes a variable out of the environment."""
         changed = os.environ | dict(environment)
         variables = {key: value for key, value in changed.items() if value is not None}
-        return ended(self.start(*arguments, env=variables, **options))
-
-    def at_work(self, process: subprocess.Popen) -> list[psutil.Process]:
-        """The jobs of a run as soon as some are at work; none if it ends before."""
-        found: list[psutil.Process] = []
-
-        def seen() -> bool:
-            found[:] = self.scripts()
-            return bool(found) or process.poll() is not None
-
-        wait_until("a job is at work", seen)
-        return found
-
-    def scripts(self) -> list[psutil.Process]:
-        """The jobs at work here."""
-        folder = str(self.folder / ".snakemake" / "scripts")
-        running = psutil.process_iter(["cmdline"])
-        return [its for its in running if folder in " ".join((its.info["cmdline"] or [])[:2])]
+        return outcome_of(self.start(*arguments, env=variables, **options))
 
 
-def ended(process: subprocess.Popen) -> Ran:
-    """How a run ends that was begun."""
-    said, _ = process.communicate(timeout=PATIENCE)
-    return Ran(process.returncode, said)
+def outcome_of(process: subprocess.Popen) -> Outcome:
+    """The outcome of a run that was started; waits for its end."""
+    output, _ = process.communicate(timeout=PATIENCE)
+    return Outcome(process.returncode, output)
 
 
 def kill(process: subprocess.Popen) -> None:

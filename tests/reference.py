@@ -39,21 +39,20 @@ def cycle(
 ):
     """One iteration of every map for the desired pose u; `widths`: of g_k and g_kl for each map.
 
+    `execute` returns the pose that a command leads to, and whether it was executed.
     Poses are measured in coordinates; (3) and (8) are taken where `units` of them are one, widths
     are given where `width_units` are.
     """
     winners = [(m.winner(u), m.theta[m.winner(u)].copy(), m.A[m.winner(u)].copy()) for m in maps]
     command = np.concatenate([m.output(u) for m in maps])
-    u1 = execute(command)
+    u1, first = execute(command)
     correction = np.concatenate([A @ (u - u1) for _, _, A in winners])
-    u2 = execute(command + correction)
+    u2, second = execute(command + correction)
     du = u2 - u1
     for m, (cell, theta, A), (width_k, width_kl) in zip(maps, winners, widths, strict=True):
         d_theta = A @ (u - u1)
         there, du_there = A / units, units * du  # d theta / d (units u), and units du
-        error = (
-            np.outer(d_theta - there @ du_there, du_there) / np.linalg.norm(du_there) ** 2
-        ) * units
+        error = np.outer(d_theta - there @ du_there, du_there) / (du_there @ du_there) * units
         theta_star = d_theta if theta_increments else theta + d_theta  # (6) or (2)
         A_star = error if jacobian_increments else A + error  # (8) or (3)
         for i, j in m.theta:
@@ -61,11 +60,11 @@ def cycle(
             far_kl = (m.w_kl[j] - m.w_kl[cell[1]]) * width_units[3:]
             g_k = np.exp(-(np.linalg.norm(far_k) ** 2) / (2 * width_k**2))
             g_kl = np.exp(-(np.linalg.norm(far_kl) ** 2) / (2 * width_kl**2))
-            c = rate * g_k * g_kl
+            c = rate * g_k * g_kl * first  # nothing of a refused move
             m.theta[i, j] = m.theta[i, j] + c * (
                 theta_star if theta_increments else theta_star - m.theta[i, j]
             )  # (7) or (4)
-            m.A[i, j] = m.A[i, j] + c * (
+            m.A[i, j] = m.A[i, j] + c * second * (
                 A_star if jacobian_increments else A_star - m.A[i, j]
             )  # (9) or (5)
 
@@ -85,15 +84,11 @@ def identify(linearise, deviations, measured):
     """
     count, kinds = len(deviations), 1 if measured.ndim == 2 else 2
     limit = chi2.ppf(0.99, 3 * kinds)
-    p, v, noise, weights = (
-        np.zeros(count),
-        np.ones(count),
-        np.full(kinds, 1e-4),
-        np.ones(len(measured)),
-    )
+    p, v = np.zeros(count), np.ones(count)
+    noise, weights = np.full(kinds, 1e-4), np.ones(len(measured))
     for step in range(60):
         poses, jacobians = linearise(p * deviations)
-        r = [_residuals(pose, its) for pose, its in zip(poses, measured, strict=True)]
+        r = [_residuals(pose, observed) for pose, observed in zip(poses, measured, strict=True)]
         J = (jacobians * deviations)[:, : 3 * kinds].reshape(len(measured), kinds, 3, count)
         if step > 0:
             for i in range(len(measured)):

@@ -21,10 +21,6 @@ def over(one, other):
     return one / other
 
 
-def test_a_division_by_zero_is_infinite_as_in_numpy():
-    assert compiled(over)(1.0, 0.0) == np.inf
-
-
 def go_through_all_loops() -> None:
     """As plain Python, where a number beside an array is an error; compiled, nobody looks."""
     assert config.DISABLE_JIT
@@ -35,10 +31,9 @@ def go_through_all_loops() -> None:
         ("so100.urdf", "gripper", [0.0, 1.0, -1.2, 0.5, 0.5]),
     ):
         arm, angles = load_arm(urdf, tool), home + random.uniform(-0.1, 0.1, (2, len(home)))
-        chain, (poses, jacobians) = Chain.of(arm), arm.forward_and_jacobian(angles)
+        chain, poses = Chain.of(arm), arm.forward(angles)
         twice = Chain.side_by_side([chain, chain]).forward(np.stack([angles, angles]))
         assert np.allclose(twice, poses)
-        assert np.allclose(chain.jacobians(angles), jacobians)
         assert chain.solve(poses, angles + 0.01)[1].max() <= TOLERANCE
     coordinates = random.uniform(-1, 1, (3, 6))
     for kind in COORDINATES:
@@ -57,3 +52,4 @@ def test_no_loop_writes_beside_an_array():
     code = "from tests.test_compiled import go_through_all_loops as go; go()"
     environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=environment, check=True)
+    assert compiled(over)(1.0, 0.0) == np.inf

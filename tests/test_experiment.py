@@ -1,8 +1,20 @@
+"""What train does with a robot, simulated or one's own, and with a learner."""
+
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib import InvalidSetting, Outcome, Plant, corrected, position_error, train
+from recalib import (
+    ExternalRobot,
+    InvalidSetting,
+    Outcome,
+    Plant,
+    PolynomialLearner,
+    Workspace,
+    corrected,
+    position_error,
+    train,
+)
 from recalib.loop import SUMMARIES
 from tests.learners.test_hierarchical import improved
 
@@ -18,30 +30,27 @@ def history(controller, damaged, poses):
     return train(Plant(controller, damaged), improved(3), *poses, range(0, 61, 4))
 
 
-def test_learning_reduces_both_errors_of_every_run(history):
+def test_learning_reduces_both_errors_of_every_run_by_two_moves_an_iteration(history):
     for errors in (history.position, history.orientation):
         assert (errors[:, -1] < 0.3 * errors[:, 0]).all()
-
-
-def test_two_moves_an_iteration_are_counted(history):
     assert np.array_equal(history.moves, 2 * history.iterations)
     assert not history.refused.any()
 
 
 def test_a_summary_is_the_mean_the_95th_percentile_and_the_largest():
     errors = np.stack([np.arange(101.0) ** 2, np.ones(101)])
-    said = [summary(errors) for summary in SUMMARIES.values()]
-    assert np.array_equal(said, [[3350, 1], [95**2, 1], [100**2, 1]])
+    summaries = [summary(errors) for summary in SUMMARIES.values()]
+    assert np.array_equal(summaries, [[3350, 1], [95**2, 1], [100**2, 1]])
     assert list(SUMMARIES) == ["", "_p95", "_max"]
 
 
 class Watched:
-    """A robot that stays where it is, and a learner that keeps what it is asked and told."""
+    """A robot that stays where it is, and a learner that records what it is given."""
 
     moves, refused = 0, 0
 
     def __init__(self, workspace):
-        self.workspace, self.told, self.asked = workspace, [], []
+        self.workspace, self.learned, self.asked = workspace, [], []
 
     def achieve(self, commands):
         executed = np.ones(commands.shape[:-1], dtype=bool)
@@ -52,27 +61,27 @@ class Watched:
         return Outcome(np.zeros_like(commands), np.ones(commands.shape[:-1], dtype=bool))
 
     def command(self, desired):
-        self.asked.append(len(self.told))
+        self.asked.append(len(self.learned))
         return desired
 
     def learn(self, desired, execute, fraction):
         execute(desired[:, None])
-        self.told.append((desired[0, 0], fraction))
+        self.learned.append((desired[0, 0], fraction))
 
 
 def test_a_learner_is_told_each_pose_in_turn_and_what_fraction_of_the_training_is_done(robot):
-    its = Watched(robot.workspace)
+    both = Watched(robot.workspace)
     desired, tests = np.zeros((1, 4, 6)), np.zeros((1, 3, 6))
     desired[0, :, 0] = 0.1, 0.2, 0.3, 0.4
     tests[0, :, 0] = 1.0, -1.0, 0.5
-    seen = []
-    history = train(its, its, desired, tests, [0, 3, 4], lambda *said: seen.append(said))
-    assert its.told == [(0.1, 0.0), (0.2, 0.25), (0.3, 0.5), (0.4, 0.75)]
-    assert its.asked == [0, 3, 4] == history.iterations.tolist() == history.moves.tolist()
+    reported = []
+    history = train(both, both, desired, tests, [0, 3, 4], lambda *row: reported.append(row))
+    assert both.learned == [(0.1, 0.0), (0.2, 0.25), (0.3, 0.5), (0.4, 0.75)]
+    assert both.asked == [0, 3, 4] == history.iterations.tolist() == history.moves.tolist()
     # a quarter of a metre to either side, and half of that
     assert history.position[0] == pytest.approx(np.tile([0.25 * 2.5 / 3, 0.25, 0.25], (3, 1)))
     assert np.abs(history.orientation).max() < 1e-7
-    assert seen[1] == (3, pytest.approx(25 * 2.5 / 3), pytest.approx(0, abs=1e-5))
+    assert reported[1] == (3, pytest.approx(25 * 2.5 / 3), pytest.approx(0, abs=1e-5))
 
 
 def test_one_robot_has_no_run_axis(history, controller, damaged, poses):
@@ -115,3 +124,37 @@ def test_each_measurement_that_is_asked_for_is_made_once_or_refused(controller, 
     for wrong in ([0, 5], [-1, 4], []):
         with pytest.raises(InvalidSetting, match="measure_at .*expected: numbers from 0 to 4"):
             train(Plant(controller, damaged), improved(3), desired, tests, wrong)
+
+
+CENTRE = np.diag([1.0, -1.0, -1.0, 1.0])
+WORKSPACE = Workspace(CENTRE, np.array([0.2, 0.2, 0.2, 0.3, 0.3, 0.3]))
+PUSHED = np.eye(4)
+PUSHED[:3, 3] = 0.01, 0.0, -0.02  # m
+
+
+@pytest.fixture
+def external() -> ExternalRobot:
+    """Pushed; it refuses whatever is commanded beyond half of the workspace's width."""
+    return ExternalRobot(WORKSPACE, lambda pose: PUSHED @ pose if pose[0, 3] < 0.1 else None)
+
+
+def test_an_own_robot_measures_coordinates_and_stays_at_home_if_it_refuses(external):
+    commands = np.random.default_rng(1).uniform(-1, 0, (2, 3, 6))
+    achieved, executed = external.execute(commands)
+    assert np.allclose(achieved - commands, [0.05, 0, -0.1, 0, 0, 0])
+    assert executed.all()
+    commands = np.zeros((2, 3, 6))
+    commands[1, :2, 0] = 0.9
+    achieved, executed = external.execute(commands)
+    assert executed.tolist() == [[True] * 3, [False, False, True]]
+    assert not achieved[1, :2].any()
+    assert external.moves == 6 and external.refused.tolist() == [0, 2]
+
+
+def test_it_takes_the_place_of_a_plant(external):
+    rng = np.random.default_rng(2)
+    desired, tests = WORKSPACE.sample(rng, 2, 30), 0.4 * WORKSPACE.sample(rng, 2, 20)
+    history = train(external, PolynomialLearner(degree=1, runs=2), desired, tests, [0, 30])
+    assert history.position[:, 0, 0] == pytest.approx(np.hypot(0.01, 0.02))
+    assert history.position[:, 1, 2].max() < 1e-4
+    assert history.moves.tolist() == [0, 30] and (history.refused[:, 1] > 0).all()

@@ -22,7 +22,9 @@ def test_imports_point_one_way(monkeypatch):
 
 def test_a_job_runs_again_if_the_code_below_it_changes():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    contracts = {its["name"]: its for its in project["tool"]["importlinter"]["contracts"]}
+    contracts = {
+        contract["name"]: contract for contract in project["tool"]["importlinter"]["contracts"]
+    }
     order = contracts["The replication, from pages down to the study"]["layers"]
     assert [*LAYERS] == ["recalib", *(f"replication.{layer}" for layer in reversed(order[1:]))]
 
@@ -42,8 +44,8 @@ def public() -> Iterator[bool]:
             module = (isinstance(node, ast.ImportFrom) and node.module) or ""
             if module.startswith(("recalib", "replication")) and not HARNESSES & {*path.parts}:
                 home = ROOT.joinpath(*module.split("."))
-                for its in node.names:
-                    inner = (home / f"{its.name}.py").exists() or (home / its.name).is_dir()
+                for alias in node.names:
+                    inner = (home / f"{alias.name}.py").exists() or (home / alias.name).is_dir()
                     yield home.is_dir() and not inner
 
 

@@ -30,7 +30,7 @@ from recalib import (
     load,
     save,
 )
-from recalib.learners import KINDS, VERSION, read
+from recalib.learners import KINDS, VERSION, class_of, kind_of, read
 from tests.spoiling import spoil
 
 RUNS = 2
@@ -59,8 +59,8 @@ def test_a_learner_goes_on_from_its_file(kind, moves, more, makers, plant, robot
     assert type(loaded) is type(learner)
     assert json.dumps(loaded.settings()) == json.dumps(learner.settings())
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
-    for its in (learner, loaded):
-        train(its, plant, moves + more, first=moves)
+    for trained in (learner, loaded):
+        train(trained, plant, moves + more, first=moves)
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
 
 
@@ -112,12 +112,9 @@ def test_another_robot_is_refused_with_what_differs(message, robot, tmp_path):
         load(tmp_path / "a.npz", OTHERS[message](robot))
 
 
-def test_another_name_is_no_other_robot(robot, tmp_path):
+def test_another_name_is_no_other_robot_but_a_newer_format_is_refused(robot, tmp_path):
     save(tmp_path / "a.npz", PolynomialLearner(1), robot)
     load(tmp_path / "a.npz", replace(robot, name="Marvin"))
-
-
-def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
     path = tmp_path / "a.npz"
     save(path, PolynomialLearner(1), robot)
     arrays = dict(np.load(path))
@@ -162,6 +159,8 @@ def test_what_cannot_be_loaded_is_not_saved(robot, tmp_path):
     with pytest.raises(UnknownName, match="UncorrectedLearner.*expected: gaussian_process"):
         save(tmp_path / "a.npz", UncorrectedLearner(), robot)
     assert not [*tmp_path.iterdir()]
+    with pytest.raises(UnknownName, match=r"'hybird'; expected: .*; did you mean hybrid\?"):
+        class_of("hybird")
 
 
 def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robot, tmp_path):
@@ -196,3 +195,30 @@ def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robo
     tests = np.random.default_rng(5).uniform(-1, 1, (3, 20, 6))
     assert np.array_equal(loaded.command(tests), together.command(tests))
     assert np.array_equal(last.command(tests[[2]]), together.command(tests)[[2]])
+
+
+def test_a_learner_is_of_the_kind_of_its_own_class():
+    class Other(PolynomialLearner):
+        pass
+
+    assert kind_of(PolynomialLearner(1)) == "polynomial"
+    with pytest.raises(UnknownName, match="unknown kind of learner to save 'Other'"):
+        kind_of(Other(1))
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_what_is_learned_later_leaves_a_state_as_it_was(name, makers):
+    learner, poses = makers[name](runs=2), np.random.default_rng(1).uniform(-1, 1, (2, 9, 6))
+
+    def learn(moves):
+        for move in moves:
+            learner.learn(
+                poses[:, move], lambda sent: Outcome(0.9 * sent, np.ones((2, 1), dtype=bool)), 0.0
+            )
+
+    learn(range(3))
+    state, commands = learner.state(), learner.command(poses)
+    learn(range(3, 9))
+    assert not np.array_equal(learner.command(poses), commands)
+    learner.restore(state)
+    assert np.array_equal(learner.command(poses), commands)

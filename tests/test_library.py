@@ -55,8 +55,8 @@ def test_the_three_lines_for_an_arm_of_ones_own_reduce_its_errors(monkeypatch, t
     offsets = np.radians([0.0, 0.5, -0.5, 0.5, -0.5, 0.0])
     joints = rng.uniform(-1, 1, (30, 6)) + np.array([0, -1, 2, -2, -1.6, 0])
     positions = arm.forward(joints + offsets)[:, :3, 3]
-    said = {*re.findall(r"\w+", identify + learn)} & {*recalib.__all__}
-    names = {name: getattr(recalib, name) for name in said}
+    used = {*re.findall(r"\w+", identify + learn)} & {*recalib.__all__}
+    names = {name: getattr(recalib, name) for name in used}
     exec(identify, names | {"joints": joints, "positions": positions})
     assert "mm" in capsys.readouterr().out
     home = dict(zip(arm.joints, np.array([0, -1.4, 2.1, -2.9, -1.57, 0]), strict=True))
@@ -72,7 +72,9 @@ def test_the_three_lines_for_an_arm_of_ones_own_reduce_its_errors(monkeypatch, t
     assert first > 5e-3 and last < 1e-6  # m: the learner's model holds the errors of this arm
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.py")), ids=lambda its: its.stem)
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "examples").glob("*.py")), ids=lambda path: path.stem
+)
 def test_an_example_needs_the_public_names_alone(path):
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
@@ -101,16 +103,16 @@ recalib.load_robott("ur10_robot.urdf")
 def test_a_type_checker_knows_the_public_names_and_finds_no_fault_with_the_examples(tmp_path):
     pytest.importorskip("mypy", reason="needs mypy, of the extra dev")
     (tmp_path / "misuse.py").write_text(MISUSE)
-    ran = subprocess.run(
+    checked = subprocess.run(
         [sys.executable, "-m", "mypy", "examples", tmp_path / "misuse.py"],
         cwd=ROOT,
         text=True,
         capture_output=True,
     )
     # not the whole path: of the same text, mypy's cache still knows the one of the last run
-    faults = re.findall(r"(\w+)\.py:(\d+): error:", ran.stdout)
-    assert faults == [("misuse", "7"), ("misuse", "7"), ("misuse", "8")], ran.stdout
-    assert "nonsense" in ran.stdout and "load_robott" in ran.stdout
+    faults = re.findall(r"(\w+)\.py:(\d+): error:", checked.stdout)
+    assert faults == [("misuse", "7"), ("misuse", "7"), ("misuse", "8")], checked.stdout
+    assert "nonsense" in checked.stdout and "load_robott" in checked.stdout
 
 
 @pytest.mark.slow
@@ -121,11 +123,11 @@ def test_an_example_ends_with_small_errors(name, monkeypatch, capsys):
     monkeypatch.syspath_prepend(path.parent)
     monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
     runpy.run_path(str(path))
-    told = capsys.readouterr().out
-    errors = [float(number) for number in re.findall(r"([\d.]+) (?:mm|cm)", told)]
+    output = capsys.readouterr().out
+    errors = [float(number) for number in re.findall(r"([\d.]+) (?:mm|cm)", output)]
     assert 0 <= errors[-1] < 0.1 * errors[0]
     if name == "save_and_load":
-        assert "belongs to another robot: its home differs by up to 0.1" in told
+        assert "belongs to another robot: its home differs by up to 0.1" in output
 
 
 @pytest.fixture(scope="module")
@@ -182,8 +184,10 @@ runpy.run_path("save_and_load.py")
 """
     examples = shutil.copytree(ROOT / "examples", tmp_path / "examples")
     only = os.environ | {"PYTHONPATH": str(tmp_path)}
-    told = subprocess.check_output([sys.executable, "-c", code], cwd=examples, env=only, text=True)
-    assert "commanded corrected: mean error 0.0000" in told
+    output = subprocess.check_output(
+        [sys.executable, "-c", code], cwd=examples, env=only, text=True
+    )
+    assert "commanded corrected: mean error 0.0000" in output
 
 
 @pytest.mark.slow
@@ -210,12 +214,12 @@ def test_the_page_on_ones_own_arm_holds_where_only_the_wheel_is(released, tmp_pa
     page = (ROOT / "docs" / "own_arm.md").read_text(encoding="utf-8")
     block = re.search(r"```sh\n(.*?)```", page, re.DOTALL)[1]
     commands = [line.partition("#")[0].split() for line in block.splitlines()]
-    assert [its[:2] for its in commands[1:]] == [
+    assert [command[:2] for command in commands[1:]] == [
         ["recalib", "calibrate"],
         ["recalib", "next"],
         ["recalib", "correct"],
     ]
-    clean = {name: its for name, its in os.environ.items() if name != "PYTHONPATH"}
+    clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     for program, *arguments in commands[1:]:
         subprocess.run([programs / program, *arguments], cwd=tmp_path, env=clean, check=True)
     sent = read(tmp_path / "commands.csv")

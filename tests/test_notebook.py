@@ -29,17 +29,11 @@ def cells(notebook) -> dict:
     return notebook.run()[1]
 
 
-def test_the_damaged_arm_misses_learns_and_hits(cells):
+def test_the_damaged_arm_misses_learns_and_hits_as_it_is_drawn(cells):
     before, by_map, by_model = cells["misses"].values()
     assert before > 5 and by_map < 0.1 * before and by_model < 0.1 * by_map
-
-
-def test_five_moves_are_compared_with_two_hundred_iterations(cells):
     moves = {name: history.moves[-1] for name, history in cells["histories"].items()}
     assert moves == {"the paper's map": 400, "identification": 5}
-
-
-def test_what_is_drawn_ends_where_the_tool_arrives(cells):
     wanted = cells["wanted"][0, [0, 2], 3]
     ends = {name: np.linalg.norm(points[-1] - wanted) for name, points in cells["real"].items()}
     assert np.allclose(cells["believed"][-1], wanted, atol=1e-5)

@@ -20,9 +20,6 @@ def test_a_smooth_function_is_found_where_it_was_not_seen():
     misses = process.predict(INPUTS[40:]) - SMOOTH[40:]
     assert np.all(np.std(misses, axis=0) < 0.03 * np.std(SMOOTH, axis=0))
     assert process.gain > 0
-
-
-def test_noise_is_no_gain():
     for _ in range(4):
         assert Process(INPUTS[:20], GENERATOR.standard_normal((20, 1))).gain < 0
 
@@ -47,15 +44,15 @@ def test_hyperparameters_are_sought_at_powers_of_two_up_to_where_more_points_tel
 
 
 def test_the_unit_and_the_origin_of_outputs_and_the_origin_of_inputs_do_not_matter():
-    shift, asked = np.array([3, -1, 2]), INPUTS[:5] + 0.1
+    shift, inputs = np.array([3, -1, 2]), INPUTS[:5] + 0.1
     # without noise, rounding would decide how likely the least noise is
     outputs = SMOOTH + np.random.default_rng(3).normal(scale=0.01, size=SMOOTH.shape)
 
     def differences(hyperparameters):
         process = Process(INPUTS, outputs, hyperparameters)
         other = Process(INPUTS + shift, 1e-3 * outputs - 5, hyperparameters)
-        predicted = (other.predict(asked + shift) + 5) / 1e-3
-        return other.gain - process.gain, np.abs(predicted - process.predict(asked)).max()
+        predicted = (other.predict(inputs + shift) + 5) / 1e-3
+        return other.gain - process.gain, np.abs(predicted - process.predict(inputs)).max()
 
     assert np.allclose(differences(np.log([0.5, 2.0, 0.7, 1.5, 4.0, 0.01])), 0, atol=1e-9)
     # a search ends where the likelihood is flat: rounding moves its place, hardly what it is worth

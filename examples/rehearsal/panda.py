@@ -20,7 +20,7 @@ STIFFNESS = 5e3  # N m/rad, of each gear: the arm droops by some millimetres
 
 
 class BentPanda(PicturedStation):
-    """Links are bent by 1 mm and 0.1 degrees, encoders shifted by half a degree: nobody knows."""
+    """Links are bent by 1 mm and 0.1 degrees, encoders shifted by half a degree."""
 
     def __init__(self, folder: str = "seen") -> None:
         rng, board = np.random.default_rng(1996), read_board("board/board.toml")
@@ -48,7 +48,7 @@ if __name__ == "__main__":
     rows: list[list[str | float]] = []
     while len(rows) < 15:
         station.move(HOME + rng.uniform(-0.35, 0.35, 7))
-        if (seen := station.measure()) is not None:
-            rows.append([str(seen["picture"]).split("/")[-1], *station.angles()])
+        if (row := station.measure()) is not None:
+            rows.append([str(row["picture"]).split("/")[-1], *station.angles()])
     with open("joints.csv", "w", newline="") as file:
         csv.writer(file).writerows([["picture", *(f"{it} [rad]" for it in station.joints)], *rows])

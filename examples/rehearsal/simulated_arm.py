@@ -36,7 +36,7 @@ FASTEST = 100.0
 SPEED = 1.0  # rad/s or m/s of a joint of which the URDF does not say how fast it is
 SAMPLES = 100  # postures among which is the one that is hardest to swing
 HARD = 0.9999  # the hardest contact that MuJoCo knows: softer ones creep
-WIDTH = 0.04  # m, half of it, of the links in pictures
+WIDTH = 0.04  # m, half the width of links in pictures
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class PhysicsStation:
             `Sag` and `Backlash` are none of them: gears have both.
         gears: between motors and links.
         instrument: its pose (4, 4) in the arm's base [m].
-        target: the pose (4, 4) of what it measures, in the tool [m].
+        target: the pose (4, 4) [m] of the measured target in the tool.
         disturbances: of moves and measurements.
         seed: of these.
 

@@ -49,7 +49,7 @@ class PicturedStation(PhysicsStation):
     ):
         self._board, self._folder = board, Path(folder)
         self._folder.mkdir(parents=True, exist_ok=True)
-        self._taken = len([*self._folder.glob("*.png")])  # what is there stays
+        self._taken = len([*self._folder.glob("*.png")])  # earlier pictures stay
         x, y = (side / 2 - 0.5 for side in size)
         matrix = np.array([[FOCAL, 0, x], [0, FOCAL, y], [0, 0, 1]])
         self.lens = Lens(size, matrix, np.zeros(4))
@@ -113,5 +113,5 @@ class PicturedStation(PhysicsStation):
         return {"picture": str(path)}
 
     def close(self) -> None:
-        """Give back what it draws with: by the thread that made it, as `Station` has it."""
+        """Free the renderer, in the thread that made it; see `Station`."""
         self._renderer.close()

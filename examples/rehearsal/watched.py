@@ -1,4 +1,4 @@
-"""Watch a live calibration in the Rerun viewer: the arm, what is measured, the predicted error.
+"""Watch a live calibration in the Rerun viewer: the arm, the measurements, the predicted error.
 
 python examples/rehearsal/watched.py examples/station.py:BentUR10 ur10_robot.urdf tool0
 
@@ -37,7 +37,7 @@ PANELS = rrb.Blueprint(
 
 
 class LiveView:
-    """Shows what is known after each row."""
+    """Shows the calibration after each row."""
 
     def __init__(self, arm: Arm, urdf: Path, rec: rr.RecordingStream) -> None:
         self._arm, self._worst, self._rec = arm, 0.0, rec

@@ -65,15 +65,15 @@ class RosArm:
 
     def measure(self) -> dict[str, float | str] | None:
         now, path = self._node.get_clock().now().nanoseconds, f"picture_{time.time_ns()}.png"
-        seen = self._wait(lambda: self._picture(now))
-        shape = seen.height, seen.width, 3
-        picture = np.ndarray(shape, "u1", bytes(seen.data), strides=(seen.step, 3, 1))
-        cv2.imwrite(path, picture[..., ::-1] if seen.encoding == "rgb8" else picture)
+        image = self._wait(lambda: self._picture(now))
+        shape = image.height, image.width, 3
+        picture = np.ndarray(shape, "u1", bytes(image.data), strides=(image.step, 3, 1))
+        cv2.imwrite(path, picture[..., ::-1] if image.encoding == "rgb8" else picture)
         return {"picture": path}
 
     def _picture(self, since: int) -> Any:
-        stamp = (seen := self._latest[Image]).header.stamp
-        return seen if 10**9 * stamp.sec + stamp.nanosec > since else None
+        stamp = (image := self._latest[Image]).header.stamp
+        return image if 10**9 * stamp.sec + stamp.nanosec > since else None
 
     def stop(self) -> None:
         if sent := self._latest.get(ActionClient):

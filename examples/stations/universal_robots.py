@@ -62,8 +62,8 @@ class UniversalRobot:
     def measure(self) -> dict[str, float | str] | None:
         for _ in range(OLD):
             self._camera.grab()
-        seen, picture = self._camera.read()
-        if not seen:
+        success, picture = self._camera.read()
+        if not success:
             return None
         path = f"picture_{time.time_ns()}.png"
         cv2.imwrite(path, picture)

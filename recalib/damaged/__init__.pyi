@@ -1,5 +1,3 @@
-"""The public names and their modules."""
-
 from .damage import Damage as Damage
 from .damage import end_of as end_of
 from .imperfections import Imperfection as Imperfection

@@ -54,5 +54,4 @@ def _line(end: np.ndarray, link: str) -> np.ndarray:
     length = np.linalg.norm(end)
     if length < 1e-9:
         raise InvalidSetting("link", link, "a link with a length")
-    direction: np.ndarray = end / length
-    return direction
+    return end / length

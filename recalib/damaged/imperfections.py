@@ -120,7 +120,7 @@ def _kind_of(value: Any) -> str | None:
 
 
 def _short(entry: Imperfection, write: Callable[[Imperfection], dict[str, Any]]) -> dict[str, Any]:
-    """An entry as it is written: without what is as by default, unless all of it is."""
+    """An entry as it is written: without defaults, unless all of its fields have them."""
     written = write(entry)
     default = {field.name for field in fields(entry) if getattr(entry, field.name) == field.default}
     return {key: text for key, text in written.items() if key not in default} or written
@@ -130,12 +130,12 @@ def _forms(value: Any) -> list[str]:
     """The keys that kinds need, those with a key of this value if there are such kinds."""
     keys = {kind: [field.name for field in fields(kind)] for kind in _kinds()}
     given = {*value} if isinstance(value, Mapping) else set()
-    alike = [kind for kind, its in keys.items() if given.intersection(its)]
+    alike = [kind for kind, names in keys.items() if given.intersection(names)]
     needed = {
         kind: [field.name for field in fields(kind) if field.default is MISSING] or keys[kind]
         for kind in alike or keys
     }
-    return [f"{{{', '.join(its)}}}" for its in needed.values()]
+    return [f"{{{', '.join(names)}}}" for names in needed.values()]
 
 
 def _notes(hint: Any) -> Iterator[Any]:

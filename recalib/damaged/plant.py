@@ -63,21 +63,16 @@ class Plant:
             there = self._home_coordinates, np.ascontiguousarray(commands), self._refused
             given: tuple[Any, ...] = *self._controller.nominal, *self._chain, *there
             return Outcome(*kernels.move(*given))
-        achieved, executed = self._disturbed(self._controller.targets(commands))
-        self._refused += np.sum(~executed, axis=1)
-        return Outcome(achieved, executed)
-
-    def _disturbed(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
-        """Achieved coordinates (run, move, 6), and whether each move was executed (run, move)."""
-        its, angles = self._disturbances, targets.angles
-        if its is not None:
-            stops = its.of_joints(self._generators, angles.shape[1:])
+        targets, disturbances = self._controller.targets(commands), self._disturbances
+        if disturbances is not None:
+            stops = disturbances.of_joints(self._generators, targets.angles.shape[1:])
             stops[..., self._controller.robot.arm.slides] = 0  # an angle is no length
-            angles = angles + stops
-        poses, executed = self.achieve_targets(targets._replace(angles=angles))
-        if its is not None:
-            poses = its.measure(self._generators, poses)
-        return self.workspace.to_coordinates(poses), executed
+            targets = targets._replace(angles=targets.angles + stops)
+        poses, executed = self.achieve_targets(targets)
+        if disturbances is not None:
+            poses = disturbances.measure(self._generators, poses)
+        self._refused += np.sum(~executed, axis=1)
+        return Outcome(self.workspace.to_coordinates(poses), executed)
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Achieved poses (run, move, 4, 4) and whether each was executed (run, move).
@@ -88,8 +83,7 @@ class Plant:
 
     def achieve_targets(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
         """As `achieve`, for commands that the controller has turned into joint angles."""
-        angles, executed = targets
-        poses = self._forward(angles)
+        poses, executed = self._forward(targets.angles), targets.executed
         if not executed.all():
             homes = np.broadcast_to(self._home, poses.shape)
             poses[~executed] = homes[~executed]
@@ -107,6 +101,6 @@ class Plant:
 
 
 def _chain(arms: Sequence[ForwardKinematics]) -> Chain | None:
-    """The arms side by side, if geometry alone says where they go."""
+    """The arms side by side, if geometry alone determines their poses."""
     chains = [arm.chain for arm in arms if isinstance(arm, DamagedArm) and not arm.deflections]
     return Chain.side_by_side(chains) if len(chains) == len(arms) else None

@@ -23,7 +23,7 @@ class Bounded:
         low, high: the bounds, in SI units.
         bounds, example: in words.
         above: whether the lower bound itself is excluded.
-        direction: whether it says where to rather than how much.
+        direction: whether it is a direction and not a size.
     """
 
     quantity: Quantity | None
@@ -95,7 +95,7 @@ SignedTurn = Annotated[float, Bounded(ANGLE, -3.15, 3.15, "from -180 to 180 deg"
 Direction = Annotated[
     float, Bounded(ANGLE, -6.3, 6.3, "from -360 to 360 deg", "90 deg", direction=True)
 ]
-# of what is random: in more no arm and no instrument would be of use
+# standard deviations: with more, no arm and no instrument would be of use
 Noise = Annotated[float, Bounded(LENGTH, 0, 0.1, "from 0 to 10 cm", "0.2 mm")]
 NoiseOfTurn = Annotated[float, Bounded(ANGLE, 0, 0.175, "from 0 to 10 deg", "0.02 deg")]
 Compliance = Annotated[float, Bounded(COMPLIANCE, 0, 1, "from 0 to 1 rad/Nm", "0.0002 rad/Nm")]

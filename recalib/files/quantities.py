@@ -19,7 +19,7 @@ class Quantity:
 
     Attributes:
         name: with its article.
-        units: the size of each in SI units; that of size 1 is among them.
+        units: the size of each in SI units; one of size 1 is among them.
         farthest: the largest number of SI units in tables and descriptions of an arm.
     """
 

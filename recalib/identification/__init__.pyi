@@ -1,5 +1,3 @@
-"""The public names and their modules."""
-
 from .calibration import calibrate as calibrate
 from .closed_forms import OPEN as OPEN
 from .closed_forms import solutions as solutions

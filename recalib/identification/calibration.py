@@ -10,10 +10,9 @@ import pinocchio as pin
 from recalib.arrays import array_of
 from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Identification, identify
 from recalib.identification.model.error_model import JOINT_WAVES, ErrorModel, JointTerms, by_sight
-from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.model.frames import Frames
 from recalib.identification.model.linearisation import displacements
 from recalib.identification.model.observations import Observations
-from recalib.identification.parameters import Parameter, parameters_of, table_of
 from recalib.loop.interfaces import State
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
@@ -99,7 +98,7 @@ class Calibration:
             targets: (n,) the numbers of the sights; default: the first.
         """
         model, estimate = self.model, self.estimate
-        _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints), targets)
+        _, jacobians = model.linearise(estimate.parameters, joints, targets)
         by_position = jacobians[:, :3].reshape(-1, model.deviations.size)
         if shifted:
             ends = np.flatnonzero(model.free[: model.optics_columns.start])
@@ -125,28 +124,6 @@ class Calibration:
         found = self.estimate.parameters[self.model.optics_columns]
         return residuals + observations.optics.slopes @ found
 
-    @property
-    def parameters(self) -> dict[str, Parameter]:
-        """Estimates of all parameters that are not held at nominal, by name."""
-        every = zip(parameters_of(self.model, self.estimate), self.model.deviations, strict=True)
-        return {its.name: its for its, before in every if before > HELD}
-
-    def summary(self) -> str:
-        """A page of text: the fit, and the parameters that differ significantly from zero."""
-        estimate, (position, *orientation) = self.estimate, self.estimate.noise
-        noise = [f"{1e3 * position:.3g} mm", *(f"{np.degrees(x):.3g} deg" for x in orientation)]
-        doubted = int(np.sum(estimate.weights < DOUBTFUL))
-        return "\n".join(
-            [
-                f"observations: {len(estimate.weights)}, {doubted} of them outliers",
-                f"noise along an axis: {', '.join(noise)}",
-                f"residuals: noise{' and a Gaussian process' if self.pattern else ''}",
-                f"converged: {'yes' if estimate.converged else 'no'}",
-                "",
-                table_of(self.parameters.values()),
-            ]
-        )
-
     @cached_property
     def frames(self) -> Frames:
         """The poses of the instrument and of the targets."""
@@ -165,12 +142,12 @@ class Calibration:
 
     @cached_property
     def _arms_to_targets(self) -> list[Arm]:
-        """Of each sight: to make one takes longer than to ask it."""
+        """The arm to the target of each sight: to make one takes longer than to use it."""
         numbers = range(len(self.model.frames.sights))
         return [self.model.arm(self.estimate.parameters, sight) for sight in numbers]
 
     def _standing(self, joints: np.ndarray) -> np.ndarray:
-        return self.model.standing(self.estimate.parameters, joints, self.model.terms(joints))
+        return self.model.standing(self.estimate.parameters, joints)
 
     def _moved(self, poses: np.ndarray, joints: np.ndarray) -> np.ndarray:
         """By the pattern of the first target, as the instrument would see it."""
@@ -228,9 +205,8 @@ class Calibration:
 
 def turned(turns: np.ndarray, residuals: np.ndarray) -> np.ndarray:
     """Residuals (n, 3) or (n, 6) along other axes, by rotations (n, 3, 3)."""
-    return np.einsum("nij,nkj->nki", turns, residuals.reshape(len(turns), -1, 3)).reshape(
-        residuals.shape
-    )
+    vectors = residuals.reshape(len(turns), -1, 3)
+    return np.einsum("nij,nkj->nki", turns, vectors).reshape(residuals.shape)
 
 
 def calibrate(
@@ -239,7 +215,6 @@ def calibrate(
     observations: Observations,
     frames: Frames | None = None,
     last: Calibration | None = None,
-    weights: np.ndarray | None = None,
 ) -> Calibration:
     """The calibration of a nominal arm by the most probable of several error models.
 
@@ -248,35 +223,22 @@ def calibrate(
 
     Args:
         candidates: joint terms of the error models, the simplest first.
-        observations: of it.
-        frames: at both ends of the arm; the instrument's is that of its base, and the target its
-            tool, unless given.
+        observations: of the arm.
+        frames: at both ends of the arm; default: the instrument is in the frame of the arm's base,
+            and the target in that of its tool.
         last: a calibration from fewer measurements, to start from. The hyperparameters of its
             process, or that it needs none, are kept until `is_time_to_search`.
-        weights: (n,) of the observations, in the first step; see `identify`.
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
     start, before = (last.estimate, len(last.estimate.weights)) if last else (None, 0)
-    best = most_probable(arm, candidates, observations, frames, start, weights)
+    every = calibrations(arm, candidates, observations, frames, start)
+    best = every[choose(every)]
     if is_time_to_search(before, len(observations)):
         return with_pattern(best, observations)
     if last is None or last.pattern is None:
         return best
     return with_pattern(best, observations, last.pattern.hyperparameters)
-
-
-def most_probable(
-    arm: Arm,
-    candidates: Sequence[JointTerms],
-    observations: Observations,
-    frames: Frames | None = None,
-    start: Identification | None = None,
-    weights: np.ndarray | None = None,
-) -> Calibration:
-    """The calibration of the error model that is chosen, without a process; see `calibrate`."""
-    every = calibrations(arm, candidates, observations, frames, start, weights)
-    return every[choose(every)]
 
 
 def calibrations(
@@ -287,9 +249,9 @@ def calibrations(
     start: Identification | None = None,
     weights: np.ndarray | None = None,
 ) -> list[Calibration]:
-    """Those of all error models, without a process; see `calibrate`."""
+    """The calibrations by all error models, without a process; for a start, see `identify`."""
     models = [ErrorModel(arm, terms, frames) for terms in candidates]
-    return [Calibration(its, identify(its, observations, start, weights)) for its in models]
+    return [Calibration(model, identify(model, observations, start, weights)) for model in models]
 
 
 def choose(candidates: Sequence[Calibration]) -> int:

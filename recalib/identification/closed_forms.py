@@ -168,5 +168,5 @@ def _least_squares(system: np.ndarray, goal: np.ndarray) -> np.ndarray:
 def _smallest(turned: np.ndarray, goal: np.ndarray) -> np.ndarray:
     """The same where the system is of rotations, about their mean: it may be zero altogether."""
     left, values, right = np.linalg.svd(turned.reshape(goal.size, -1), full_matrices=False)
-    told = values > OPEN * np.sqrt(2 * len(goal))
-    return right[told].T @ (left[:, told].T @ goal.ravel() / values[told])
+    determined = values > OPEN * np.sqrt(2 * len(goal))
+    return right[determined].T @ (left[:, determined].T @ goal.ravel() / values[determined])

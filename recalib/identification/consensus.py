@@ -34,6 +34,8 @@ def identify_by_consensus(model: ErrorModel, observations: Observations) -> Iden
     if found.noise[0] < SUSPICIOUS or len(observations) <= size:
         return found
     rng, terms = generator(0, "consensus"), model.terms(observations.joints)
+    # so many numbers an arm can fit exactly: 4 for each joint, 6 for its ends
+    by_chance = AMPLE * (4 * len(model.nominal.slides) + 6)
     starts = []
     for number in range(SETS):
         start = identify(model, observations[rng.permutation(len(observations))[:size]])
@@ -45,12 +47,7 @@ def identify_by_consensus(model: ErrorModel, observations: Observations) -> Iden
     for median, _, start, errors in sorted(starts, key=lambda one: one[:2])[:BEST]:
         other = identify(model, observations, start, (errors < GROSS * median).astype(float))
         counted = np.sum(other.weights > DOUBTFUL)
-        enough = max(MOST * len(observations), _by_chance(model) / (3 * observations.kinds))
+        enough = max(MOST * len(observations), by_chance / (3 * observations.kinds))
         if counted > enough and other.noise[0] < CLEARLY * found.noise[0]:
             found = other
     return found
-
-
-def _by_chance(model: ErrorModel) -> float:
-    """How many numbers an arm can fit exactly: 4 for each joint, 6 for its ends."""
-    return AMPLE * (4 * len(model.nominal.slides) + 6)

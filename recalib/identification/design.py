@@ -63,7 +63,7 @@ def _rows(calibration: Calibration, joints: np.ndarray, optics: Optics | None = 
     """Jacobians (n, 3 or 6, P) of the measured quantities, over their noise."""
     model, estimate = calibration.model, calibration.estimate
     noise = np.repeat(estimate.noise, 3)
-    _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints))
+    _, jacobians = model.linearise(estimate.parameters, joints)
     if optics is not None:
         jacobians[..., model.optics_columns] = -optics.slopes
         jacobians = Observations(joints, optics=optics).whitened(jacobians)
@@ -71,7 +71,7 @@ def _rows(calibration: Calibration, joints: np.ndarray, optics: Optics | None = 
 
 
 def _spreads(rows: np.ndarray, covariance: np.ndarray) -> np.ndarray:
-    """Covariances (n, 3 or 6, 3 or 6) of what would be measured, over those of its noise."""
+    """Covariances (n, 3 or 6, 3 or 6) of predicted measurements, over the noise's covariance."""
     return np.eye(rows.shape[1]) + rows @ covariance @ rows.swapaxes(1, 2)
 
 

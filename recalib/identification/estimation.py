@@ -26,7 +26,6 @@ from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.input_checks import check_observations
 from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Observations
-from recalib.identification.model.optics import Optics
 from recalib.identification.unseen import Unseen
 
 GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements
@@ -61,7 +60,7 @@ class Identification:
             orientation [rad].
         weights: (n,) how much each measurement counted: 1, or less if it is doubted, down to 0.
         log_evidence: of the error model, up to a constant that depends on the data alone. It leaves
-            out how well known distances and pictures agree with what was found of them.
+            out how well known distances and pictures agree with the estimate.
         converged: whether the last step changed next to nothing.
     """
 
@@ -97,10 +96,8 @@ def identify(
     terms = model.terms(observations.joints)
     sparse, diagonal = ~model.free, np.diag_indices(len(scale))
     precision = np.empty((len(scale),) * 2)
-    linear, unseen = (
-        Linearisation(model, parameters, observations, terms),
-        Unseen(model, observations),
-    )
+    linear = Linearisation(model, parameters, observations, terms)
+    unseen = Unseen(model, observations)
     for iteration in range(STEPS):
         if not linear.is_good_at(parameters, NEGLIGIBLE * noise.min()):
             del linear  # there is no room for two
@@ -114,21 +111,11 @@ def identify(
             gradient = unseen.left_out(gradient)
         np.einsum("k,kpq->pq", noise**-2, information, out=precision)
         gradient = noise**-2 @ gradient - parameters / variances
-        if observations.distances:
-            known, stretch = _distances(model, parameters, observations)
-            precision += known
-            gradient += stretch
-        if observations.optics is not None:
-            known, offset = _optics(model, observations.optics)
-            precision += known
-            gradient += offset - known @ parameters
-        if model.stated.any():
-            precision += model.stated
-            gradient -= model.stated @ parameters
+        _add_known(model, parameters, observations, precision, gradient)
         precision[diagonal] += 1 / variances
         try:
             step, step_norm, covariance, volume = _posterior(precision, gradient)
-        except ValueError:  # what is far off has led to where nothing can be told any more
+        except ValueError:  # a row far off has left no regular precision
             row = weights.argmin()
             valid = "what the same arm explains as the others"
             values = observations.joints if observations.measured is None else observations.measured
@@ -162,7 +149,7 @@ def identify(
 def _posterior(
     precision: np.ndarray, gradient: np.ndarray
 ) -> tuple[np.ndarray, float, np.ndarray, float]:
-    """The step of the parameters (P,) for a gradient (P,), and what is left unknown of them.
+    """The step of the parameters (P,) for a gradient (P,), and their posterior covariance.
 
     The precision (P, P) is overwritten: to find room for large matrices takes as long as to fill
     them.
@@ -200,11 +187,18 @@ def _variances(
     return np.where(model.free, 1, np.minimum(sparse, WORN))
 
 
-def _distances(
-    model: ErrorModel, parameters: np.ndarray, observations: Observations
-) -> tuple[np.ndarray, np.ndarray]:
-    """What known distances between sockets add to the normal equations: (P, P) and (P,)."""
-    information, gradient = np.zeros((len(parameters),) * 2), np.zeros(len(parameters))
+def _add_known(
+    model: ErrorModel,
+    parameters: np.ndarray,
+    observations: Observations,
+    precision: np.ndarray,
+    gradient: np.ndarray,
+) -> None:
+    """Add to the normal equations, (P, P) and (P,), what is known apart from the rows.
+
+    This is: distances between sockets, the pictures' own information on their optics, and stated
+    poses of frames.
+    """
     centres = model.sockets(parameters * model.deviations)
     for one, other, length, deviation in observations.distances:
         between = centres[one] - centres[other]
@@ -213,19 +207,18 @@ def _distances(
         by_centre = slope[model.socket_columns].reshape(-1, 3)
         by_centre[one], by_centre[other] = between / apart, -between / apart
         slope *= model.deviations
-        information += np.outer(slope, slope) / deviation**2
+        precision += np.outer(slope, slope) / deviation**2
         gradient += slope * (length - apart) / deviation**2
-    return information, gradient
-
-
-def _optics(model: ErrorModel, optics: Optics) -> tuple[np.ndarray, np.ndarray]:
-    """The information (P, P) of pictures on their optics, with poses free; its gradient (P,)."""
-    information, gradient = np.zeros((len(model.deviations),) * 2), np.zeros(len(model.deviations))
-    columns = model.optics_columns
-    scale = model.deviations[columns]
-    information[columns, columns] = optics.information.sum(axis=0) * np.outer(scale, scale)
-    gradient[columns] = optics.gradient.sum(axis=0) * scale
-    return information, gradient
+    if observations.optics is not None:
+        columns = model.optics_columns
+        scale = model.deviations[columns]
+        information = observations.optics.information.sum(axis=0) * np.outer(scale, scale)
+        precision[columns, columns] += information
+        gradient[columns] += observations.optics.gradient.sum(axis=0) * scale
+        gradient[columns] -= information @ parameters[columns]
+    if model.stated.any():
+        precision += model.stated
+        gradient -= model.stated @ parameters
 
 
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:

@@ -1,16 +1,16 @@
 """Hand-eye calibration: where a camera and a board are, by the poses of an arm that is not exact.
 
 The board is at M_i = X^-1 G_i Z in the camera. X is the pose of the camera on its side of the arm,
-Z that of the board on the other side. G_i leads from one side to the other: the flange's pose F_i
-in the base if the camera is next to the arm, and its inverse if the camera is on the hand.
+Z the pose of the board on the other side. G_i leads from one side to the other: the flange's pose
+F_i in the base if the camera is next to the arm, and its inverse if the camera is on the hand.
 
 The flange is not where the controller says. So the residual r_i, which takes the predicted pose of
 the board to the measured one, has the covariance
 
     C_i = S_i + A_i D A_i',    D = diag(p^2, p^2, p^2, a^2, a^2, a^2),
 
-where S_i is that of the corners' noise, and A_i turns a displacement of the flange into one of the
-board in the camera. The lens and the scale of the print are parameters, too; see
+where S_i is the covariance by the corners' noise, and A_i turns a displacement of the flange into
+one of the board in the camera. The lens and the scale of the print are parameters, too; see
 `recalib.identification.model.optics`. Closed forms start a search by Gauss' and Newton's steps. The
 pose accuracy (p, a) of the arm, which maximises the restricted likelihood (Patterson and Thompson
 1971), and the weights of poses that do not fit are found with it, in turn.
@@ -26,7 +26,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.closed_forms import solutions
 from recalib.identification.model.frames import nearest_rotation
-from recalib.identification.model.linearisation import LEVER, displacements
+from recalib.identification.model.linearisation import LEVER, displaced, displacements
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 
@@ -40,7 +40,7 @@ SETTLED = 0.01  # a change of weights
 FINEST, COARSEST = 1e-7, 1.0  # m, rad: no arm is as accurate, or as bad
 FOLDS = 30
 TURNS = 24  # about the only axis, to start from
-ONE_AXIS = 1.5  # deg: turns about a second axis that are smaller tell nothing
+ONE_AXIS = 1.5  # deg: turns about a second axis that are smaller determine nothing
 
 
 @dataclass(frozen=True)
@@ -261,7 +261,7 @@ def starts(sights: Sights) -> Iterator[HandEye]:
 def _about_one_axis(
     between: np.ndarray, board: np.ndarray
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """The axis in the camera is that of the arm; the turn about it is tried all around."""
+    """The camera's axis of rotation is the arm's; the turn about it is tried all around."""
     pairs = [poses[:, :3, :3] @ poses[0, :3, :3].T for poses in (between, board)]
     arm, camera = (Rotation.from_matrix(turns).as_rotvec() for turns in pairs)
     across, axis = nearest_rotation(arm.T @ camera), np.linalg.svd(arm)[2][0]
@@ -286,7 +286,7 @@ def _first(start: HandEye) -> HandEye:
 
 
 def information(found: HandEye) -> np.ndarray:
-    """What each pose says of camera and board: (n, 12, 12)."""
+    """The information (n, 12, 12) of each pose on the poses of camera and board."""
     linear = LinearHandEye(found)
     slopes = linear.slopes[..., :ENDS]
     return slopes.swapaxes(1, 2) @ linear.precisions @ slopes
@@ -328,31 +328,20 @@ def _with_noise(found: HandEye) -> HandEye:
 
 def _moved_to_best(found: HandEye) -> HandEye:
     """The best camera, board and optics by the noise and weights of a calibration."""
+    sights = found.sights
+    reach = max(np.abs(poses[:, :3, 3]).max() for poses in (sights.flange, sights.board))
     for _ in range(STEPS):
         linear = LinearHandEye(found)
         information, gradient = linear.normal_equations(linear.precisions, found.weights)
         scale = 1 / np.sqrt(np.maximum(information.diagonal(), np.finfo(float).tiny))
         inverse = np.linalg.pinv(information * scale * scale[:, None], rcond=1e-12, hermitian=True)
         covariance = inverse * scale * scale[:, None]
-        step = _bounded(covariance @ gradient, found.sights)
-        camera, board = _moved(found.camera, step[:6]), _moved(found.board, step[6:ENDS])
+        step = covariance @ gradient
+        positions, turns = np.abs(step[:ENDS].reshape(2, 2, 3)).max(axis=(0, 2))
+        step /= max(1.0, positions / reach, turns / LONGEST)  # longer ones may never end
+        camera, board = displaced(found.camera, step[:6]), displaced(found.board, step[6:ENDS])
         optics = found.optics + step[ENDS:]
         found = replace(found, camera=camera, board=board, optics=optics, covariance=covariance)
         if np.abs(step[:ENDS]).max() < SMALL:
             break
     return found
-
-
-def _bounded(step: np.ndarray, sights: Sights) -> np.ndarray:
-    """A step of at most `LONGEST`, and as far as poses lie: longer ones may never end."""
-    positions, turns = np.abs(step[:ENDS].reshape(2, 2, 3)).max(axis=(0, 2))
-    reach = max(np.abs(poses[:, :3, 3]).max() for poses in (sights.flange, sights.board))
-    return step / max(1.0, positions / reach, turns / LONGEST)
-
-
-def _moved(pose: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """A pose displaced by (6,) m and rad along and about the axes of its frame."""
-    moved = pose.copy()
-    moved[:3, 3] += step[:3]
-    moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
-    return moved

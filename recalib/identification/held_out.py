@@ -5,13 +5,12 @@ tests extrapolation. A posture is held out as a whole, with all its targets and 
 its rows would reveal the others.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.cluster.vq import kmeans, vq
 
-from recalib.identification.calibration import Calibration
 from recalib.identification.checks.postures import Postures
 from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.observations import Observations
@@ -19,10 +18,7 @@ from recalib.identification.model.optics import Optics
 from recalib.numerics.randomness import generator
 
 FOLDS = 5
-COVERED = 0.95  # of what is measured should lie within the intervals
-
-# From the rows that are held out (n,) to calibrations by all others, by what is done.
-Fit = Callable[[np.ndarray], Mapping[str, Calibration]]
+COVERED = 0.95  # of measurements should lie within the intervals
 
 
 @dataclass(frozen=True)
@@ -65,17 +61,21 @@ class HeldOut:
         return self.errors @ np.array([1, LEVER])[: self.errors.shape[1]]
 
     def radius(self, kind: int = 0) -> float:
-        """Within how much of their predictions 95 % of what is measured lies, in each part.
+        """The distance from predictions within which 95 % of each part's measurements lie.
 
-        A covariance counts noise and what the data leave open, but not what no parameter describes:
-        that is in the residuals (split conformal prediction, Lei et al. 2018). Where parts lie
-        apart, that differs from one to the next, and a new place may be as bad as the worst.
+        A covariance counts noise and the parameters' uncertainty, but not errors that no parameter
+        describes: they are in the residuals (split conformal prediction, Lei et al. 2018). If parts
+        lie apart, their errors differ, and a new place may be as bad as the worst.
 
         Args:
             kind: 0 of position [m], 1 of orientation [rad].
         """
-        off = self.errors[:, kind]
-        return max(_covering(off[self.folds == fold]) for fold in np.unique(self.folds))
+        off, radii = self.errors[:, kind], []
+        for fold in np.unique(self.folds):
+            some = np.sort(off[self.folds == fold])
+            rank = min(len(some), int(np.ceil((len(some) + 1) * COVERED)))
+            radii.append(float(some[rank - 1]))  # the least that covers 95 % of others like them
+        return max(radii)
 
     def coverage(self) -> float:
         """The part of positions within the radius of the other folds."""
@@ -84,12 +84,6 @@ class HeldOut:
             for fold in np.unique(self.folds)
         ]
         return float(np.concatenate(within).mean())
-
-
-def _covering(errors: np.ndarray) -> float:
-    """The least of them that covers 95 % of others like them."""
-    rank = min(len(errors), int(np.ceil((len(errors) + 1) * COVERED)))
-    return float(np.sort(errors)[rank - 1])
 
 
 def random_folds(observations: Observations, postures: Postures) -> np.ndarray:
@@ -130,18 +124,7 @@ def _divided(
     """
     parts, groups = divide(np.arange(len(postures))), observations.groups
     for group in range(groups.max() + 1):
-        its = np.unique(postures.numbers[groups == group])
-        if np.ptp(parts[its]) == 0:
-            parts[its] = divide(its)
+        members = np.unique(postures.numbers[groups == group])
+        if np.ptp(parts[members]) == 0:
+            parts[members] = divide(members)
     return parts[postures.numbers]
-
-
-def hold_out(fit: Fit, observations: Observations, folds: np.ndarray) -> dict[str, HeldOut]:
-    """Calibrate without each fold in turn, and predict it; by what is done."""
-    residuals: dict[str, np.ndarray] = {}
-    for fold in np.unique(folds):
-        held = folds == fold
-        for kind, calibration in fit(held).items():
-            every = residuals.setdefault(kind, np.empty((len(held), 3 * observations.kinds)))
-            every[held] = calibration.residuals(observations[held])
-    return {kind: HeldOut(every, folds, observations.optics) for kind, every in residuals.items()}

@@ -23,7 +23,7 @@ from recalib.numerics.randomness import generator
 from recalib.spelling import counted
 
 SETS, SPARE = 60, 3  # small sets of rows, and how many rows they have beyond the fewest
-MOST = 200  # rows to estimate from: more tell little more
+MOST = 200  # rows to estimate from: more add little
 REFINED = 6  # so many of the best estimates are refined
 ROBUST, STEPS = 5e-3, 30  # m that count as gross, and evaluations, of a refinement
 FARTHEST = 0.15  # m: an arm with a larger median error is not the one that is described
@@ -68,7 +68,9 @@ def initial_frames(
     check_rows(observations)
     rng = generator(0, "first guess")
     if len(observations) > MOST:
-        observations = observations[_some(observations, rng.permutation(len(observations)))]
+        group, order = observations.groups, rng.permutation(len(observations))
+        rare = np.flatnonzero(~np.isin(group, group[order[:MOST]]))  # all rows of other groups
+        observations = observations[np.union1d(order[:MOST], rare)]
     tool = arm.forward(observations.joints)
     if observations.measured is not None and base is None and _is_open(tool, observations, target):
         raise NoInitialEstimate(
@@ -106,13 +108,6 @@ def joined_frames(parts: Sequence[Frames], sights: np.ndarray) -> Frames:
     bases = np.array([parts[sight].base for sight in instruments])
     ends = np.array([parts[sight].targets[0] for sight in targets])
     return replace(parts[0], base=bases[0], further=bases[1:], targets=ends, sights=sights)
-
-
-def _some(observations: Observations, order: np.ndarray) -> np.ndarray:
-    """The first rows of an order, and all rows of groups that none of these is of."""
-    group = observations.groups
-    rare = np.flatnonzero(~np.isin(group, group[order[:MOST]]))
-    return np.union1d(order[:MOST], rare)
 
 
 def _small_sets(observations: Observations, rng: np.random.Generator) -> Iterator[np.ndarray]:

@@ -1,6 +1,6 @@
 """The parameters of an error model by name, in readable units."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +10,6 @@ from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.optics import OPTICS
 
 MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
-CLEAR = 2.0  # standard errors: a parameter that is so far from zero is listed
 
 
 @dataclass(frozen=True)
@@ -21,8 +20,8 @@ class Parameter:
         name: in words, such as offset of elbow_joint.
         unit: mm, deg or deg/Nm.
         value: in that unit.
-        deviation: its standard error, in that unit, which data and prior leave together: where the
-            data do not tell a parameter from others, it may be small because the prior is.
+        deviation: its standard error, in that unit, by the data and the prior together: if the data
+            do not identify a parameter, the deviation may be small because the prior's is.
     """
 
     name: str
@@ -50,19 +49,6 @@ def parameters_of(
             _names(model, targets, sockets, instruments), estimate.parameters, errors, strict=True
         )
     ]
-
-
-def table_of(parameters: Collection[Parameter]) -> str:
-    """Those that are not zero for sure, a line each, and how many others there are."""
-    clear = [its for its in parameters if abs(its.value) > CLEAR * its.deviation]
-    lines = [f"{its.name:<48}{its.value:10.4f}{its.deviation:10.4f} {its.unit}" for its in clear]
-    return "\n".join(
-        [
-            f"{'parameter':<48}{'value':>10}{'std err':>10}",
-            *lines,
-            f"and {len(parameters) - len(clear)} within {CLEAR:g} standard errors of zero",
-        ]
-    )
 
 
 def _names(

@@ -17,7 +17,7 @@ from recalib.numerics.randomness import generator
 
 # m, rms: what wear of one deviation moves on rows that do not show it, and on those that would
 NOTHING, SOMETHING = 1e-4, 3e-3
-UNKNOWN = 0.1  # of the deviation of what nobody knows: as much as wear
+UNKNOWN = 0.1  # of the deviation of an unknown frame: as much as wear
 POSTURES = 40  # all over the joints' ranges
 
 
@@ -29,7 +29,7 @@ class Unseen:
     """
 
     def __init__(self, model: ErrorModel, observations: Observations):
-        columns, size = _geometry(model), len(model.deviations)
+        columns, size = geometry_of(model), len(model.deviations)
         wear = np.where(model.free[columns], UNKNOWN, 1.0)
         here = _slopes(model, observations)[:, columns] * wear
         values, vectors = np.linalg.eigh(here.T @ here / len(observations))
@@ -46,7 +46,7 @@ class Unseen:
         return columns - (columns @ self.directions) @ self._across.T
 
 
-def _geometry(model: ErrorModel) -> np.ndarray:
+def geometry_of(model: ErrorModel) -> np.ndarray:
     """The numbers of the parameters of frames, links and offsets that are not held."""
     numbers = np.arange(len(model.deviations))
     numbers = np.concatenate([numbers[: model.optics_columns.start], numbers[model.offset_columns]])
@@ -55,8 +55,8 @@ def _geometry(model: ErrorModel) -> np.ndarray:
 
 def _slopes(model: ErrorModel, observations: Observations) -> np.ndarray:
     """Of all that observations measure (m, P) by the parameters over their deviations [m]."""
-    terms, origin = model.terms(observations.joints), np.zeros(len(model.deviations))
-    jacobians = Linearisation(model, origin, observations, terms).jacobians
+    origin = np.zeros(len(model.deviations))
+    jacobians = Linearisation(model, origin, observations).jacobians
     levers = np.array([1, LEVER])[: observations.kinds, None, None, None]
     return (jacobians * levers).reshape(-1, len(origin))
 
@@ -64,11 +64,8 @@ def _slopes(model: ErrorModel, observations: Observations) -> np.ndarray:
 def anywhere(model: ErrorModel, observations: Observations, count: int) -> Observations:
     """So many observations of the same kind, of all targets, all over the joints' ranges."""
     arm, rng, rows = model.nominal.model, generator(0, "anywhere"), np.arange(count)
-    low, high = (
-        np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
-    )
+    low, high = np.clip([arm.lowerPositionLimit, arm.upperPositionLimit], -np.pi, np.pi)
     others = observations[rows % len(observations)]
     targets = rows % (int(observations.targets.max()) + 1)
-    return replace(
-        others, joints=rng.uniform(low, high, (count, len(low))), targets=targets, optics=None
-    )
+    joints = rng.uniform(low, high, (count, len(low)))
+    return replace(others, joints=joints, targets=targets, optics=None)

@@ -4,21 +4,17 @@ The residuals of the fit do not show it: a Gaussian process interpolates.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from recalib.identification.calibration import (
-    Calibration,
-    calibrations,
-    choose,
-    with_pattern,
-)
+from recalib.identification.calibration import Calibration, calibrations, choose, with_pattern
 from recalib.identification.checks.diagnostics import check_estimate, check_links, check_postures
 from recalib.identification.checks.postures import Postures, find_postures
 from recalib.identification.consensus import identify_by_consensus
 from recalib.identification.estimation import LEAST_NOISE, Identification
-from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
+from recalib.identification.held_out import HeldOut, blocks, random_folds
 from recalib.identification.model.error_model import (
     JOINT_ERRORS,
     JOINT_WAVES,
@@ -34,7 +30,8 @@ from recalib.identification.unseen import Unseen
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
-# Of errors away from what was measured, and among it. The first is what a calibration is worth.
+# Of errors on postures away from those measured, and among them. The first say what a calibration
+# is worth.
 BLOCKWISE, RANDOM = WAYS = "in blocks", "at random"
 OUTLYING = 0.1  # the weight of a row below which it is grossly off: ten standard deviations
 CANDIDATES = OFFSETS, JOINT_ERRORS, JOINT_WAVES  # the joint terms that there may be
@@ -43,16 +40,15 @@ SURE = 2.0  # standard errors by which something richer has to be better, to be 
 
 @dataclass(frozen=True)
 class Validation:
-    """Errors on rows that were not learned from.
+    """Held-out errors, and the calibrations from all rows.
 
     Attributes:
-        held_out: by way of folding and by what is done. If frames are unknown, those of the
-            nominal arm are identified, too, and nothing else is.
-        postures: in which all rows are.
+        held_out: by way of folding and by what is corrected. If frames are unknown, the nominal
+            arm's are identified, too, and nothing else is.
+        postures: of all rows.
         counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
-        lost: by way of folding, (n,) whether the part of a row tells what no other rows do: without
-            it a direction of the geometry is open, and errors there are of that.
-        chosen: what is best done: nothing, geometric or hybrid.
+        lost: by way of folding, (n,) whether the part of a row determines what no other rows do:
+            without it a direction of the geometry is not identifiable, and errors show only that.
         full: the calibrations from all rows.
         unsettled: whether there was more than geometry, but its identification did not converge.
     """
@@ -61,9 +57,25 @@ class Validation:
     postures: Postures
     counted: np.ndarray
     lost: Mapping[str, np.ndarray]
-    chosen: str
     full: Mapping[str, Calibration]
     unsettled: bool
+
+    @cached_property
+    def chosen(self) -> str:
+        """The simplest of nothing, geometric and hybrid that nothing richer beats for sure.
+
+        On postures away from those learned from.
+        """
+        judged = self.judged(BLOCKWISE)
+        _, own = np.unique(self.postures.numbers[judged], return_inverse=True)
+        losses = {kind: self.held_out[BLOCKWISE][kind][judged].losses for kind in KINDS}
+        best, *richer = KINDS
+        for kind in richer:
+            # rows of one posture err alike: they are one gain
+            gains = np.bincount(own, losses[best] - losses[kind]) / np.bincount(own)
+            if gains.mean() > max(SURE * gains.std(ddof=1) / np.sqrt(len(gains)), LEAST_NOISE):
+                best = kind
+        return best
 
     @property
     def calibration(self) -> Calibration:
@@ -75,8 +87,13 @@ class Validation:
         return self.held_out[way][kind].errors
 
     def judged(self, way: str) -> np.ndarray:
-        """Whether errors of rows (n,) count: those of outliers and lost directions do not."""
-        return _judged(self.counted, self.lost[way], self.held_out[way][NOTHING].folds)
+        """Rows (n,) whose errors count: all but outliers and rows that are `lost`.
+
+        If hardly any part is left, all but outliers count.
+        """
+        judged = self.counted & ~self.lost[way]
+        parts = self.held_out[way][NOTHING].folds[judged]
+        return judged if len(np.unique(parts)) > 1 else self.counted
 
     def held_out_by(self, way: str, kind: str) -> HeldOut:
         """The rows whose errors count."""
@@ -149,7 +166,7 @@ def validate(
         full[HYBRID] = hybrid
 
     def without(rows: np.ndarray) -> dict[str, Calibration]:
-        # a model that all rows do not ask for is not tried on fewer
+        # a model that is not chosen for all rows is not tried on fewer
         tried = [NO_ERRORS, *CANDIDATES[: 1 + best * (HYBRID in full)]]
         none, *others = identified(tried, ~rows)
         found = {NOTHING: none, GEOMETRIC: others[0], HYBRID: others[choose(others)]}
@@ -163,17 +180,20 @@ def validate(
     for way, divide in zip(WAYS, (blocks, random_folds), strict=True):
         on_progress(f"errors {way}")
         folds = divide(observations, postures)
+        residuals = {kind: np.empty((len(folds), 3 * observations.kinds)) for kind in full}
+        for fold in np.unique(folds):
+            out = folds == fold
+            for kind, calibration in without(out).items():
+                residuals[kind][out] = calibration.residuals(observations[out])
         held_out[way] = {
-            kind: replace(errors, unseen=unseen[kind])
-            for kind, errors in hold_out(without, observations, folds).items()
+            kind: HeldOut(every, folds, observations.optics, unseen[kind])
+            for kind, every in residuals.items()
         }
         lost[way] = _lost(candidates[0].model, observations, folds)
-    judged = _judged(counted, lost[BLOCKWISE], held_out[BLOCKWISE][NOTHING].folds)
-    chosen = _choice(held_out[BLOCKWISE], judged, postures)
     full.setdefault(HYBRID, full[GEOMETRIC])  # there was nothing but geometry
     for errors in held_out.values():
         errors.setdefault(HYBRID, errors[GEOMETRIC])
-    return Validation(held_out, postures, counted, lost, chosen, full, unsettled)
+    return Validation(held_out, postures, counted, lost, full, unsettled)
 
 
 def _lost(model: ErrorModel, observations: Observations, folds: np.ndarray) -> np.ndarray:
@@ -185,27 +205,3 @@ def _lost(model: ErrorModel, observations: Observations, folds: np.ndarray) -> n
         if Unseen(model, observations[folds != fold]).directions.shape[1] > opened
     ]
     return np.isin(folds, parts)
-
-
-def _judged(counted: np.ndarray, lost: np.ndarray, folds: np.ndarray) -> np.ndarray:
-    """Rows (n,) that count and whose part lost no direction; if hardly any, those that count."""
-    judged = counted & ~lost
-    return judged if len(np.unique(folds[judged])) > 1 else counted
-
-
-def _choice(held_out: Mapping[str, HeldOut], judged: np.ndarray, postures: Postures) -> str:
-    """The simplest that nothing beats for sure, on postures away from those learned from.
-
-    Args:
-        held_out: by what is done.
-        judged: (n,) the rows that count.
-    """
-    _, own = np.unique(postures.numbers[judged], return_inverse=True)
-    losses = {kind: held_out[kind][judged].losses for kind in held_out}
-    best, *richer = losses
-    for kind in richer:
-        # rows of one posture err alike: they are one gain
-        gains = np.bincount(own, losses[best] - losses[kind]) / np.bincount(own)
-        if gains.mean() > max(SURE * gains.std(ddof=1) / np.sqrt(len(gains)), LEAST_NOISE):
-            best = kind
-    return best

@@ -13,8 +13,7 @@ from recalib.arrays import array_of, check_rotations
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import LENGTH, TIME
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.identification.checks.repeatability import weigh
-from recalib.identification.checks.scales import scales
+from recalib.identification.checks.scales import returning, scales
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.validation import validate
 from recalib.laboratory.data_set import DataSet, data_set
@@ -188,7 +187,8 @@ def identified(
     frames = known.stated_in(frames_of(arm, data))
     if observations.optics is not None:
         frames = frames.with_optics(observations.optics)
-        observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)
+        covariance = returning(ErrorModel(arm, OFFSETS, frames), observations)
+        observations = observations.with_noise(covariance)
         data = replace(data, observations=observations)
     check_distances(arm, data, frames)
     mistake = mistake_in(arm, observations, frames)

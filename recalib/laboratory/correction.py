@@ -22,7 +22,7 @@ from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.archives import MOST, archive_of, opened, refused
 from recalib.files.storage import path_of, read_file, whole
 from recalib.identification.calibration import Calibration
-from recalib.identification.checks.poses import outside_of
+from recalib.identification.checks.postures import outside_of
 from recalib.identification.model.error_model import by_sight
 from recalib.laboratory.reaching import Goals, poses_at, reach_all
 from recalib.nominal.arms import arm_of
@@ -64,7 +64,7 @@ class Correction:
 
     Attributes:
         urdf: the nominal arm's file, as the user gave it; empty if there is none.
-        calibration: what was identified.
+        calibration: the identified errors of the arm, and the frames.
         learned: (n, joints) rad, or m where a joint slides, from which it was identified.
         targets: their names, in the order of their numbers.
     """
@@ -238,13 +238,13 @@ class Correction:
 
     def _check_frame(self, goals: Goals) -> None:
         """Raise InvalidSetting if the joints take the arm to the poses, but in the other frame."""
-        near, places = goals.near, goals.positions
-        if near is None or len(self.targets) > 1 or len(self.calibration.frames.sockets):
+        postures, places = goals.postures, goals.positions
+        if postures is None or len(self.targets) > 1 or len(self.calibration.frames.sockets):
             return
         frame = BASE if goals.targets is None else INSTRUMENT
         gaps = {}
         for name, target in ((BASE, None), (INSTRUMENT, 0)):
-            off = poses_at(self.calibration, near, target)[:, :3, 3] - places
+            off = poses_at(self.calibration, postures, target)[:, :3, 3] - places
             gaps[name] = np.median(np.linalg.norm(off, axis=1))
         (other,) = gaps.keys() - {frame}
         if gaps[other] < min(NEAR, BETTER * gaps[frame]) and gaps[frame] > NEAR:

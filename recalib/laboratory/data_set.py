@@ -30,7 +30,7 @@ class DataSet:
         tables: the files with the measurements; several are each of another sight.
         nominal: (n, 3) m, where the positions should have been; None if unknown.
         boards: names of the boards in pictures.
-        doubts: what is doubtful about lenses, in sentences without their full stops.
+        doubts: about lenses, in sentences without their full stops.
         lens_files: files of the lenses with corrections (o,) by name, see `OPTICS`; None without
             pictures.
     """

@@ -13,8 +13,7 @@ from recalib.files.quantities import LENGTH
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
-from recalib.nominal.coupling import Coupling
-from recalib.nominal.kinematics import Arm
+from recalib.nominal.kinematics import Arm, Coupling
 from recalib.nominal.newton import solve_groups
 from recalib.nominal.poses import orientation_error, position_error
 from recalib.spelling import listed
@@ -39,13 +38,13 @@ class Goals:
 
     Attributes:
         poses: (n, 4, 4), or positions (n, 3) [m].
-        near: (n, columns) rad, m: postures to stay near to; None if any will do.
+        postures: (n, columns) rad, m to stay near to; None if any will do.
         targets: (n,) numbers of the targets whose poses they are in the instrument's frame; None if
-            they are those of the tool link in the arm's base.
+            they are the tool link's in the arm's base.
     """
 
     poses: np.ndarray
-    near: np.ndarray | None = None
+    postures: np.ndarray | None = None
     targets: np.ndarray | None = None
 
     @classmethod
@@ -114,7 +113,7 @@ def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reache
         learned: (n, columns) rad, m to start from if the goals have no postures.
     """
     arm, simple = calibration.model.nominal, goals.reachable(calibration.model.nominal)
-    starts = [goals.near] if goals.near is not None else _nearest(calibration, learned, goals)
+    starts = _nearest(calibration, learned, goals) if goals.postures is None else [goals.postures]
     lower, upper = arm.coupling.limits
     found, errors = starts[0].copy(), np.full(len(goals), np.inf)
     reached = np.zeros(len(goals), dtype=bool)

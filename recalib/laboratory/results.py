@@ -46,10 +46,10 @@ class Results:
         urdf: the file of the nominal arm; None if there is none.
         data: the measurements.
         frames: from which the identification started.
-        validation: errors on rows that were not learned from, and the choice by them.
+        validation: held-out errors, and the choice by them.
         scales: of boards, of distances between sockets or of all positions, by links as long as the
             nominal arm's.
-        mistake: what is likely wrong with the rows, in words; see `mistake_in`.
+        mistake: the likely mistake in the rows, in words; see `mistake_in`.
         offset: what lies between nominal positions in the rows and the nominal kinematics, in
             words; None if nothing does.
     """

@@ -24,7 +24,7 @@ def log_meshes(
     """Log the visual meshes of a robot, each in the frame `<prefix>/<link>` of its link.
 
     Args:
-        source: what was read of the URDF at `urdf`.
+        source: the content of the URDF at `urdf`.
 
     Returns their entities by link, links without any left out; and the names of the meshes that
     are in none of the URDF's packages and folders.
@@ -83,8 +83,8 @@ def link_placements(
     """Placements (n, 4, 4) [m] of links in the world at joint angles (n, joint) [rad].
 
     Args:
-        base: how the robot's base was shifted, if it was. The arm's joints know of it, the links
-            before the first joint do not.
+        base: how the robot's base was shifted, if it was. The arm's joints include the shift,
+            the links before the first joint do not.
     """
     model, data, base = arm.model, arm.model.createData(), base or pin.SE3.Identity()
     frames = {link: model.getFrameId(link, pin.FrameType.BODY) for link in links}

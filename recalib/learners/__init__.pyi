@@ -1,6 +1,3 @@
-"""The public names and their modules."""
-
-from .experience import is_due as is_due
 from .geometric import angles_for as angles_for
 from .kernels import JACOBIAN as JACOBIAN
 from .kernels import THETA as THETA
@@ -12,3 +9,4 @@ from .learned import VERSION as VERSION
 from .learned import read as read
 from .maps import Maps as Maps
 from .nets import regular_grid as regular_grid
+from .observer import is_due as is_due

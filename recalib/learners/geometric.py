@@ -1,4 +1,4 @@
-"""Identification of the arm's geometry.
+"""Identification of the arm's geometry, alone or with joint errors and a model of residuals.
 
 To reach a pose, the learner asks the identified arm for the joint angles that it needs there, and
 commands the pose that the nominal kinematics give these angles.
@@ -11,10 +11,10 @@ from typing import Any, Self
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration, most_probable
-from recalib.identification.model.error_model import OFFSETS
+from recalib.identification.calibration import Calibration, calibrate, calibrations
+from recalib.identification.model.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS
 from recalib.identification.model.observations import Observations
-from recalib.learners.experience import Refitting
+from recalib.learners.observer import Refitting
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
@@ -38,7 +38,7 @@ class GeometricLearner(Refitting):
     MODEL = "calibration"
 
     def __init__(self, controller: Controller, *, runs: int = 1):
-        super().__init__(runs, len(controller.robot.joints))
+        super().__init__(runs=runs, sent=len(controller.robot.joints))
         self._controller = controller
 
     def command(self, desired: np.ndarray) -> np.ndarray:
@@ -63,7 +63,8 @@ class GeometricLearner(Refitting):
 
     @staticmethod
     def _calibrate(arm: Arm, observations: Observations, last: Calibration | None) -> Calibration:
-        return most_probable(arm, (OFFSETS,), observations, start=last.estimate if last else None)
+        start = last.estimate if last else None
+        return calibrations(arm, (OFFSETS,), observations, start=start)[0]
 
     @classmethod
     def identify(cls, arm: Arm, observations: Observations) -> Calibration:
@@ -86,6 +87,22 @@ class GeometricLearner(Refitting):
         return cls(Controller(robot, greatest_condition=math.inf), runs=runs)
 
 
+class HybridLearner(GeometricLearner):
+    """A geometric learner with joint errors and a model of residuals; see `calibrate`.
+
+    Such as eccentric gears and sag.
+    """
+
+    @staticmethod
+    def _calibrate(arm: Arm, observations: Observations, last: Calibration | None) -> Calibration:
+        return calibrate(arm, (OFFSETS, JOINT_ERRORS), observations, last=last)
+
+    @classmethod
+    def identify(cls, arm: Arm, observations: Observations) -> Calibration:
+        """As for a geometric learner, with more kinds of joint errors."""
+        return calibrate(arm, (OFFSETS, JOINT_ERRORS, JOINT_WAVES), observations)
+
+
 def angles_for(
     calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray
 ) -> np.ndarray:
@@ -102,7 +119,7 @@ def angles_for(
 
     def kinematics(runs: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         pairs = zip(runs, angles, strict=True)
-        found = [calibrations[run].forward_and_jacobian(its) for run, its in pairs]
+        found = [calibrations[run].forward_and_jacobian(joints) for run, joints in pairs]
         poses, jacobians = map(np.stack, zip(*found, strict=True))
         return poses, jacobians
 

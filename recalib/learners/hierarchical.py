@@ -65,21 +65,8 @@ class HierarchicalLearner:
         sent = (command + correction)[:, None]
         second = execute(sent)
         check_moves(sent, second.achieved, second.executed, last)
-        kernels.learn(
-            *cells,
-            winners,
-            theta,
-            jacobian,
-            correction,
-            first.achieved,
-            first.executed,
-            second.achieved,
-            second.executed,
-            self._metric,
-            self._widths,
-            self._rate,
-            fraction,
-        )
+        held, falls = (winners, theta, jacobian, correction), (self._widths, self._rate)
+        kernels.learn(*cells, *held, *first, *second, self._metric, *falls, fraction)
         maps.waiting += 1
 
     def widths(self, fraction: float) -> np.ndarray:
@@ -94,7 +81,7 @@ class HierarchicalLearner:
             name: tuple(value) if isinstance(value, list) else value
             for name, value in settings["rules"].items()
         }
-        schedule = Schedule.of_runs([Schedule(**its) for its in settings["by_run"]])
+        schedule = Schedule.of_runs([Schedule(**values) for values in settings["by_run"]])
         return cls(Rules(**rules), schedule, runs=runs)
 
     def settings(self) -> dict[str, Any]:

@@ -116,7 +116,7 @@ def respond(
     increments: tuple[bool, bool],
     desired: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """The first command of an iteration, by (1), and what it was made of.
+    """The first command of an iteration, by (1), and the cells that it came from.
 
     Args:
         plain: `Cells` as a plain tuple.
@@ -143,9 +143,9 @@ def respond(
         for each in range(6 // outputs):
             first = each * outputs
             for update in range(waiting):
-                near = cells.g_k[run, each, update, k] * cells.g_kl[run, each, update, l]
-                rate_theta = cells.rates[run, update, THETA] * near
-                rate_jacobian = cells.rates[run, update, JACOBIAN] * near
+                neighbourhood = cells.g_k[run, each, update, k] * cells.g_kl[run, each, update, l]
+                rate_theta = cells.rates[run, update, THETA] * neighbourhood
+                rate_jacobian = cells.rates[run, update, JACOBIAN] * neighbourhood
                 for output in range(outputs):
                     star = cells.theta_star[run, each, update, output]
                     if not increments[THETA]:
@@ -212,7 +212,7 @@ def learn(
         first, second: (run, 1, 6) the achieved poses u' and u''.
         first_executed, second_executed: (run, 1) whether these moves were executed.
         metric: (6,) squared units of the norm in (3) and (8).
-        widths: how those of g_k and g_kl fall: from and to (run, map, 2), by which power.
+        widths: how the widths of g_k and g_kl fall: from and to (run, map, 2), by which power.
         rate: how the learning rate c' falls: from (run,) to (run,), by which power.
         fraction: of the training that is done.
     """
@@ -262,7 +262,7 @@ def _neighbours(squares: np.ndarray, width: float, weights: np.ndarray) -> None:
 
 @compiled
 def spread_over(g_kl: np.ndarray, star: np.ndarray) -> np.ndarray:
-    """Products (update, L n) of neighbourhoods (update, L) and what is propagated (update, n)."""
+    """Products (update, L n) of neighbourhoods (update, L) and propagated values (update, n)."""
     updates, cells, numbers = len(star), g_kl.shape[1], star.shape[1]
     products = np.empty((updates, cells * numbers))
     for update in range(updates):
@@ -276,8 +276,8 @@ def spread_over(g_kl: np.ndarray, star: np.ndarray) -> np.ndarray:
 def lasting(rate: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Weights (update, K L) that updates towards values keep under the later ones.
 
-    Each later update leaves 1 - weight of what was there. Also returns what all together leave
-    (K L) of what was there before.
+    Each later update leaves 1 - weight of the value before it. Also returns the weights (K L) that
+    the values before all updates keep.
     """
     updates, supernet, subnet = len(rate), g_k.shape[1], g_kl.shape[1]
     weights, remaining = np.empty((updates, supernet * subnet)), np.ones(supernet * subnet)

@@ -1,15 +1,15 @@
 """The kinds of today's learners and of the paper's. A new kind is named here, and nowhere else.
 
-Files of what was learned, the study's comparisons and its real arm follow from this table.
+Files of trained learners, the study's comparisons and its real arm follow from this table.
 """
 
 from collections.abc import Mapping
-from importlib import import_module
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from recalib.errors import UnknownName
 
-if TYPE_CHECKING:  # whoever only asks for a kind need not wait for what a learner needs
+if TYPE_CHECKING:  # a look at the table does not import what learners need
     from recalib.loop.interfaces import Savable
 
 # What learners need to know.
@@ -21,8 +21,8 @@ class Kind(NamedTuple):
 
     Attributes:
         home: where its class is.
-        peers: as what it is compared with the paper's learners: the settings of each, by its name
-            for people.
+        peers: settings with which it is compared with the paper's learners, by the name of each
+            comparison.
         needs: what it needs to know. With the kinematics, its class can `identify`, too: see
             `GeometricLearner.identify`.
     """
@@ -33,32 +33,30 @@ class Kind(NamedTuple):
 
 
 KINDS = {
-    "hierarchical": Kind("recalib.learners.hierarchical.HierarchicalLearner"),
+    "hierarchical": Kind("recalib.learners.hierarchical:HierarchicalLearner"),
     "polynomial": Kind(
-        "recalib.learners.polynomial.PolynomialLearner",
+        "recalib.learners.corrections:PolynomialLearner",
         {"affine": {"degree": 1}, "quadratic": {"degree": 2}},
     ),
     "gaussian_process": Kind(
-        "recalib.learners.gaussian_process.GaussianProcessLearner", {"Gaussian process": {}}
+        "recalib.learners.corrections:GaussianProcessLearner", {"Gaussian process": {}}
     ),
-    "geometric": Kind("recalib.learners.geometric.GeometricLearner", {"geometric": {}}, KINEMATICS),
-    "hybrid": Kind("recalib.learners.hybrid.HybridLearner", {"hybrid": {}}, KINEMATICS),
+    "geometric": Kind("recalib.learners.geometric:GeometricLearner", {"geometric": {}}, KINEMATICS),
+    "hybrid": Kind("recalib.learners.geometric:HybridLearner", {"hybrid": {}}, KINEMATICS),
 }
 
 
 def kind_of(learner: object) -> str:
     """The kind of a learner. Raises UnknownName."""
-    its = type(learner)
+    learner_class = type(learner)
     for name, kind in KINDS.items():
-        if kind.home == f"{its.__module__}.{its.__qualname__}":
+        if kind.home == f"{learner_class.__module__}:{learner_class.__qualname__}":
             return name
-    raise UnknownName("kind of learner to save", its.__name__, KINDS)
+    raise UnknownName("kind of learner to save", learner_class.__name__, KINDS)
 
 
 def class_of(kind: str) -> "type[Savable]":
     """The class of a kind. Raises UnknownName."""
     if kind not in KINDS:
         raise UnknownName("kind of learner", kind, KINDS)
-    module, _, name = KINDS[kind].home.rpartition(".")
-    found: type[Savable] = getattr(import_module(module), name)
-    return found
+    return resolve_name(KINDS[kind].home)

@@ -1,7 +1,7 @@
-"""Files of what was learned: enough to go on or to correct commands elsewhere, on the same robot.
+"""Files of trained learners: enough to go on or to correct commands elsewhere, on the same robot.
 
 A file is an archive (`recalib.files.archives`). Its header has the format's version, the kind of
-learner and what it was made with, and the robot. All other arrays are named RUN/GROUP/NAME.
+learner and its settings, and the robot. All other arrays are named RUN/GROUP/NAME.
 """
 
 from collections.abc import Mapping
@@ -68,7 +68,7 @@ def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
 
 
 def identity(robot: Robot) -> dict[str, Any]:
-    """What tells a robot from others, in the types of JSON: what it does, not what it is called."""
+    """The facts by which a robot is recognised, in the types of JSON: its motion, not its name."""
     joints = np.arange(len(robot.joints)) + 1
     angles = np.sin(np.outer(np.arange(PROBES) + 1, joints))  # rad, a mixture of all joints
     numbers = {

@@ -63,11 +63,12 @@ class Maps:
             return
         for run, each in np.ndindex(cells.theta.shape[:2]):
             here, rates = (run, each, waiting), cells.rates[run, waiting]
-            near = cells.g_k[here], cells.g_kl[here]
+            g_k, g_kl = cells.g_k[here], cells.g_kl[here]
             theta, jacobian = cells.theta[run, each], cells.jacobian[run, each]
-            _apply(theta, rates[:, THETA], *near, cells.theta_star[here], self.increments[THETA])
+            star = cells.theta_star[here]
+            _apply(theta, rates[:, THETA], g_k, g_kl, star, self.increments[THETA])
             star = cells.jacobian_star[here]
-            _apply(jacobian, rates[:, JACOBIAN], *near, star, self.increments[JACOBIAN])
+            _apply(jacobian, rates[:, JACOBIAN], g_k, g_kl, star, self.increments[JACOBIAN])
 
 
 def _apply(

@@ -62,7 +62,7 @@ class Nets:
     def winner(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The winning cells (k, l), each (...), for poses u (..., 6).
 
-        First that of the supernet, then that of its subnet.
+        First the supernet's, then its subnet's.
         """
         return nearest(u[..., POSITION], self.w_k), nearest(u[..., ORIENTATION], self.w_kl)
 

@@ -34,7 +34,7 @@ class RadialLearner:
     Args:
         rules: of the paper's: sizes and centres of the nets, whose pairs of cells (k, l) are the
             units; one map or two (section 4), increments of theta or values (section 5), and how
-            widths and rates fall (section 6). What is said of Jacobians says nothing here.
+            widths and rates fall (section 6). Rules for Jacobians have no effect here.
         schedule: how widths and rates fall.
         field: s, the width of the receptive fields, in workspace coordinates; it stays.
         runs: how many independent trainings.

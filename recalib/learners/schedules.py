@@ -69,9 +69,8 @@ class Schedule:
     final_rate: float | np.ndarray
 
     def __post_init__(self) -> None:
-        for width in (*_each(self.initial_width), *_each(self.final_widths)):
-            if not np.all(np.greater(width, 0)):
-                raise InvalidSetting("width of a neighbourhood", width, "above 0")
+        for widths in (self.initial_width, self.final_widths):
+            _each(_check_width, widths)
         for rate in (self.initial_rate, self.final_rate):
             if not np.all(np.greater(rate, 0) & np.less_equal(rate, 1)):
                 raise InvalidSetting("learning rate", rate, "above 0 and at most 1")
@@ -80,7 +79,7 @@ class Schedule:
         """The same for a number of runs, all arrays (run,). Raises InvalidSetting: no number."""
         if not isinstance(runs, int | np.integer) or runs < 1:
             raise InvalidSetting("runs", runs, "a whole number, at least 1")
-        return self._with(lambda number: np.full(runs, number))
+        return self._of(lambda number: np.full(runs, number), self)
 
     def widths(self, maps: Collection[str]) -> tuple[np.ndarray, np.ndarray]:
         """Initial and final widths (run, map, 2) of the schedule of several runs.
@@ -94,40 +93,33 @@ class Schedule:
             initial = np.array([[*map(np.asarray, self.initial_width[name])] for name in maps])
         else:
             initial = np.broadcast_to(self.initial_width, final.shape)
-        first, last = (np.ascontiguousarray(its.transpose(2, 0, 1)) for its in (initial, final))
+        first, last = (np.ascontiguousarray(part.transpose(2, 0, 1)) for part in (initial, final))
         return first, last
 
     def of_run(self, run: int) -> "Schedule":
         """The schedule of one run, all numbers."""
-        return self._with(lambda numbers: float(np.asarray(numbers)[run]))
-
-    def _with(self, change: Callable[[Any], Any]) -> "Schedule":
-        def changed(widths: Width | Widths) -> Any:
-            if isinstance(widths, Mapping):
-                return {name: [*map(change, pair)] for name, pair in widths.items()}
-            return change(widths)
-
-        rates = change(self.initial_rate), change(self.final_rate)
-        return Schedule(changed(self.initial_width), changed(self.final_widths), *rates)
+        return self._of(lambda numbers: float(np.asarray(numbers)[run]), self)
 
     @classmethod
     def of_runs(cls, schedules: Sequence["Schedule"]) -> "Schedule":
         """A schedule for several runs, from one for each."""
+        return cls._of(lambda *numbers: np.array(numbers), *schedules)
 
-        def together(widths: Sequence[Any]) -> Any:
-            if isinstance(widths[0], Mapping):
-                return {name: np.array([its[name] for its in widths]).T for name in widths[0]}
-            return np.array(widths)
-
-        return cls(
-            together([schedule.initial_width for schedule in schedules]),
-            together([schedule.final_widths for schedule in schedules]),
-            np.array([schedule.initial_rate for schedule in schedules]),
-            np.array([schedule.final_rate for schedule in schedules]),
-        )
+    @classmethod
+    def _of(cls, change: Callable[..., Any], *schedules: "Schedule") -> "Schedule":
+        """The schedule with what `change` makes of the numbers of others, place by place."""
+        parts = zip(*(vars(schedule).values() for schedule in schedules), strict=True)
+        return cls(*(_each(change, *part) for part in parts))
 
 
-def _each(widths: Width | Widths) -> list[Width]:
-    if isinstance(widths, Mapping):
-        return [width for pair in widths.values() for width in pair]
-    return [widths]
+def _each(change: Callable[..., Any], *parts: Any) -> Any:
+    """What a change makes of numbers, or of those at each place of pairs by map."""
+    if not isinstance(parts[0], Mapping):
+        return change(*parts)
+    pairs = {name: zip(*(part[name] for part in parts), strict=True) for name in parts[0]}
+    return {name: [change(*numbers) for numbers in pair] for name, pair in pairs.items()}
+
+
+def _check_width(width: Width) -> None:
+    if not np.all(np.greater(width, 0)):
+        raise InvalidSetting("width of a neighbourhood", width, "above 0")

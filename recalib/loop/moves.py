@@ -33,7 +33,8 @@ def check_moves(
 
     Returns the last of these moves, commands, achieved and executed, with a move axis of 1.
     """
-    run, move = _first_bad(commands, achieved)
+    moves = commands, achieved, np.asarray(executed)
+    run, move, stuck = _first_wrong(*moves, *(last or NO_MOVES))
     if run >= 0:
         # A command may be NaN where a learner diverges; such a move is refused, and harmless.
         allowed = OUTSIDE + WRAPPED * np.abs(commands[run, move]).max()
@@ -41,10 +42,8 @@ def check_moves(
             "six coordinates of the workspace, which reaches from -1 to 1, each a number up to"
             f" {allowed:.3g} for such a command"
         )
-        raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
-    run, move = _first_stuck(commands, achieved, executed, *(last or NO_MOVES))
-    if run >= 0:
-        valid = "another pose than the move before it, whose command was another one"
+        if stuck:
+            valid = "another pose than the move before it, whose command was another one"
         raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
     if commands.shape[1] > 1:  # compiled loops want whole arrays
         return commands[:, -1:].copy(), achieved[:, -1:].copy(), executed[:, -1:].copy()
@@ -52,8 +51,18 @@ def check_moves(
 
 
 @compiled
-def _first_bad(commands: np.ndarray, achieved: np.ndarray) -> tuple[int, int]:
-    """Run and move of the first that achieved no numbers, or was too far off; -1 if none."""
+def _first_wrong(
+    commands: np.ndarray,
+    achieved: np.ndarray,
+    executed: np.ndarray,
+    last_commands: np.ndarray,
+    last_achieved: np.ndarray,
+    last_executed: np.ndarray,
+) -> tuple[int, int, bool]:
+    """Run and move of the first that achieved no numbers, or was too far off; -1 if none.
+
+    Or, with the third value true, of the first that led to the pose before it by another command.
+    """
     for run in range(achieved.shape[0]):
         for move in range(achieved.shape[1]):
             allowed, size = 0.0, 0.0
@@ -63,40 +72,16 @@ def _first_bad(commands: np.ndarray, achieved: np.ndarray) -> tuple[int, int]:
             for number in range(6):
                 size = abs(achieved[run, move, number])
                 if size > allowed or not np.isfinite(size):
-                    return run, move
-    return -1, -1
-
-
-@compiled
-def _first_stuck(
-    commands: np.ndarray,
-    achieved: np.ndarray,
-    executed: np.ndarray,
-    last_commands: np.ndarray,
-    last_achieved: np.ndarray,
-    last_executed: np.ndarray,
-) -> tuple[int, int]:
-    """Run and move of the first that led to the pose before it by another command; -1 if none."""
-    for run in range(achieved.shape[0]):
-        for move in range(achieved.shape[1]):
-            if move > 0:
-                before, there, done = (
-                    commands[run, move - 1],
-                    achieved[run, move - 1],
-                    executed[run, move - 1],
-                )
-            elif len(last_commands):
-                before, there, done = (
-                    last_commands[run, 0],
-                    last_achieved[run, 0],
-                    last_executed[run, 0],
-                )
-            else:
+                    return run, move, False
+            if move == 0 and not len(last_commands):
                 continue
+            before = commands[run, move - 1] if move > 0 else last_commands[run, 0]
+            there = achieved[run, move - 1] if move > 0 else last_achieved[run, 0]
+            done = executed[run, move - 1] if move > 0 else last_executed[run, 0]
             gap, sent = 0.0, 0.0
             for number in range(6):
                 gap = max(gap, abs(achieved[run, move, number] - there[number]))
                 sent = max(sent, abs(commands[run, move, number] - before[number]))
             if gap < STUCK and sent > MOVED and executed[run, move] and done:
-                return run, move
-    return -1, -1
+                return run, move, True
+    return -1, -1, False

@@ -84,7 +84,7 @@ def measure(
     achieved, _ = plant.achieve(learner.command(tests))
     errors = pose_errors(plant.workspace, achieved, plant.workspace.to_poses(tests), error)
     position, orientation = (
-        np.stack([summary(its) for summary in SUMMARIES.values()], axis=-1) for its in errors
+        np.stack([summary(values) for summary in SUMMARIES.values()], axis=-1) for values in errors
     )
     return position, orientation
 

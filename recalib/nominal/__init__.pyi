@@ -1,12 +1,10 @@
-"""The public names and their modules."""
-
 from .arms import arm_of as arm_of
 from .chain import TOLERANCE as TOLERANCE
 from .denavit_hartenberg import CONVENTIONS as CONVENTIONS
+from .descriptions import STDERR as STDERR
 from .descriptions import UrdfFile as UrdfFile
+from .descriptions import caught_messages as caught_messages
 from .descriptions import find_urdf as find_urdf
-from .foreign_messages import STDERR as STDERR
-from .foreign_messages import caught_messages as caught_messages
 from .kinematics import tool_frame as tool_frame
 from .meshes import with_own_meshes as with_own_meshes
 from .newton import LONGEST_STEP as LONGEST_STEP

@@ -1,5 +1,6 @@
 """Serial arms from URDFs: the joints between a base link and a tool link, all others locked."""
 
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from xml.etree import ElementTree
@@ -9,14 +10,20 @@ import pinocchio as pin
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.files.storage import read_file
-from recalib.nominal.coupling import coupling_of
-from recalib.nominal.descriptions import MOST, find_urdf, link_of, parsed
-from recalib.nominal.foreign_messages import caught_messages
-from recalib.nominal.kinematics import Arm, tool_frame
-from recalib.nominal.urdf_checks import check_description, mistakes
+from recalib.nominal.descriptions import (
+    MOST,
+    MOVING,
+    caught_messages,
+    check_description,
+    find_urdf,
+    link_of,
+    mistakes,
+    parsed,
+)
+from recalib.nominal.kinematics import Arm, Coupling, tool_frame
 from recalib.spelling import listed
 
-KINDS = "fixed", "revolute", "continuous", "prismatic"
+KINDS = "fixed", *MOVING
 NAMESAKE = " (joint)"  # after the name of one that is called like a link
 MOST_MOVING = 100  # joints between base and tool: the time for more grows with their cube
 UNBOUNDED = 1e300  # a limit that urdfdom can read, beyond which there is none
@@ -42,7 +49,7 @@ def load_arm(urdf: str | PathLike[str], tool: str | None = None, base: str | Non
 
 
 def arm_of(source: bytes, path: Path, tool: str | None = None, base: str | None = None) -> Arm:
-    """As `load_arm`, of what was read from a URDF; its path is for messages."""
+    """As `load_arm`, from the content of a URDF; its path is for messages."""
     tree = _Tree(source, path)
     base = tree.link("base", base or tree.root)
     tool = tree.link("tool", tool) if tool else tree.only_end(base)
@@ -56,9 +63,64 @@ def arm_of(source: bytes, path: Path, tool: str | None = None, base: str | None 
     if base != tree.root:
         _stand_on(model, model.frames[tool_frame(model, base)].placement.copy())
     limits = np.array([model.lowerPositionLimit, model.upperPositionLimit])
-    arm = Arm(model, tool, base, coupling_of(tree.joints, list(model.names)[1:], limits))
+    arm = Arm(model, tool, base, _coupling_of(tree.joints, list(model.names)[1:], limits))
     _check(arm, path)
     return arm
+
+
+def _coupling_of(
+    joints: Mapping[str, ElementTree.Element], names: Sequence[str], limits: np.ndarray
+) -> Coupling | None:
+    """The coupling of joints by `<mimic>`; None if none follows another.
+
+    Args:
+        joints: all joints of a URDF, by name.
+        names: of those between base and tool.
+        limits: (2, joint) rad, m, lower and upper, of these.
+
+    Raises UnsuitableRobot: a joint that follows itself, or none that moves.
+    """
+    if all(joints[name].find("mimic") is None for name in names):
+        return None
+    drivers, gains, shifts = zip(*(_followed(joints, name) for name in names), strict=True)
+    columns = tuple(dict.fromkeys(drivers))
+    matrix = np.array(
+        [
+            [gain * (driver == column) for column in columns]
+            for driver, gain in zip(drivers, gains, strict=True)
+        ]
+    )
+    bounds = np.array([_limits(joints[column]) for column in columns]).T
+    for driver, gain, shift, ends in zip(drivers, gains, shifts, limits.T, strict=True):
+        if gain:
+            lower, upper = sorted((ends - shift) / gain)
+            column = bounds[:, columns.index(driver)]
+            column[:] = max(column[0], lower), min(column[1], upper)
+    slides = np.array([joints[column].get("type") == "prismatic" for column in columns])
+    return Coupling(columns, slides, matrix, np.array(shifts), bounds)
+
+
+def _followed(joints: Mapping[str, ElementTree.Element], name: str) -> tuple[str, float, float]:
+    """The joint that drives another, by which factor, and from where on."""
+    gain, shift, chain = 1.0, 0.0, [name]
+    while (mimic := joints[chain[-1]].find("mimic")) is not None:
+        shift += gain * float(mimic.get("offset", "0"))
+        gain *= float(mimic.get("multiplier", "1"))
+        driver = mimic.get("joint", "")
+        if driver in chain or driver not in joints or joints[driver].get("type") not in MOVING:
+            raise UnsuitableRobot(
+                f"{chain[-1]} follows {driver!r}; expected: another joint, which moves by itself"
+            )
+        chain.append(driver)
+    return chain[-1], gain, shift
+
+
+def _limits(joint: ElementTree.Element) -> tuple[float, float]:
+    limit = joint.find("limit")
+    if limit is None or joint.get("type") == "continuous":
+        return -np.inf, np.inf
+    lower, upper = (float(limit.get(end, "0")) for end in ("lower", "upper"))
+    return lower, upper
 
 
 def _check(arm: Arm, path: Path) -> None:
@@ -115,16 +177,16 @@ class _Tree:
         self.joints = {
             joint.get("name", "").removesuffix(NAMESAKE): joint for joint in robot.iterfind("joint")
         }
+        # Pinocchio has no frames of links in a circle, which hang on nothing
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
-        # of links in a circle, which hang on nothing, Pinocchio knows nothing
         if lost := sorted(links.difference(self._links)):
             found = f"{listed(lost, 'and')} of {path} hang in a circle, on no base"
             raise UnsuitableRobot(f"{found}; expected: a tree")
         self.root = self._links[0]
 
     def link(self, role: str, name: str) -> str:
-        """The name, if it is that of a link."""
+        """The same name, if a link has it. Raises UnknownName."""
         if name not in self._links:
             raise UnknownName(f"{role} link of {self._name}", name, self._links)
         return name
@@ -136,8 +198,7 @@ class _Tree:
             link
             for link in self._links
             if link not in carrying
-            and base in self._way_up(link)
-            and any(joint.get("type") != "fixed" for joint in self._joints_up(link, base))
+            and any(joint.get("type") != "fixed" for joint in self._joints_up(link, base) or ())
         ]
         if not ends:
             raise UnsuitableRobot(f"no joint of {self._name} moves a link that hangs on {base}")
@@ -148,10 +209,11 @@ class _Tree:
 
     def joints_between(self, base: str, tool: str) -> list[str]:
         """Names of the joints that move one link against another."""
-        if base not in self._way_up(tool):
+        between = self._joints_up(tool, base)
+        if between is None:
             raise UnsuitableRobot(f"{base} does not carry {tool} in {self._name}")
         moving = []
-        for joint in self._joints_up(tool, base):
+        for joint in between:
             kind = joint.get("type")
             if kind not in KINDS:
                 raise UnsuitableRobot(
@@ -167,13 +229,12 @@ class _Tree:
             raise UnsuitableRobot(f"no joint of {self._name} moves {tool} against {base}")
         return moving
 
-    def _way_up(self, link: str) -> list[str]:
-        """The link and all that carry it."""
-        return [link, *(link_of(joint, "parent") for joint in self._joints_up(link, self.root))]
-
-    def _joints_up(self, link: str, base: str) -> list[ElementTree.Element]:
+    def _joints_up(self, link: str, base: str) -> list[ElementTree.Element] | None:
+        """The joints from a link up to a base; None if the base does not carry it."""
         joints = []
         while link != base:
+            if link not in self._joints:
+                return None
             joints.append(self._joints[link])
             link = link_of(joints[-1], "parent")
         return joints

@@ -1,7 +1,7 @@
 """Serial arms as arrays, for many postures at once.
 
-If a joint slides, its joint angle is a length [m]. Pinocchio says where joints and tool are
-placed, and stays the reference.
+If a joint slides, its joint angle is a length [m]. The placements of joints and
+tool come from Pinocchio, which stays the reference.
 """
 
 from collections.abc import Sequence
@@ -54,15 +54,6 @@ class Chain(kernels.Arms):
         """
         self._check(angles, len(self.slides))
         return kernels.forward(tuple(self), angles)
-
-    def jacobians(self, angles: np.ndarray) -> np.ndarray:
-        """Jacobians (posture, 6, n) of the first arm at joint angles (posture, n) [rad].
-
-        From joint velocities to linear [m/s] and angular [rad/s] velocity of the tool along the
-        base's axes. Raises InvalidSetting: angles of other joints.
-        """
-        self._check(angles)
-        return kernels.jacobians(tuple(self), angles)
 
     def solve(self, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Joint angles (posture, n) [rad] that take the tool of the first arm to poses.

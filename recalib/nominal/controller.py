@@ -13,7 +13,6 @@ nothing.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from typing import Any, NamedTuple
@@ -34,14 +33,13 @@ ROUNDS = 4  # in which the joint angles of a redundant arm settle; each leaves s
 GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at work has 12
 
 
-@dataclass(frozen=True)
-class Solution:
-    """What Newton's method found for commands.
+class Targets(NamedTuple):
+    """Joint angles for commands.
 
     Attributes:
-        angles: (n, joint) rad.
-        residuals: (n,) the largest remaining component, in m or rad.
-        within_limits: (n,) whether the arm's joints can turn so far.
+        angles: (..., joint) rad to which they take the robots.
+        residuals: (...) the largest remaining component of the pose, in m or rad.
+        within_limits: (...) whether the arm's joints can turn so far.
     """
 
     angles: np.ndarray
@@ -49,21 +47,9 @@ class Solution:
     within_limits: np.ndarray
 
     @property
-    def reached(self) -> np.ndarray:
-        """(n,) whether the command can be executed."""
+    def executed(self) -> np.ndarray:
+        """(...) whether they are carried out."""
         return (self.residuals <= TOLERANCE) & self.within_limits
-
-
-class Targets(NamedTuple):
-    """What commands ask of the joints.
-
-    Attributes:
-        angles: (run, move, joint) rad to which they take the robots.
-        executed: (run, move) whether they are carried out.
-    """
-
-    angles: np.ndarray
-    executed: np.ndarray
 
 
 class Controller:
@@ -105,18 +91,15 @@ class Controller:
         given: tuple[Any, ...] = *self._chain, *self.robot.workspace.region, *start, *limits
         return kernels.ControllerArrays(*given)
 
-    def solve(self, poses: np.ndarray) -> Solution:
-        """Joint angles for the commanded poses (n, 4, 4), never raising: see `Solution.reached`."""
-        commands = self.robot.workspace.to_coordinates(poses)
-        return Solution(*kernels.targets(*self.nominal, commands))
+    def solve(self, poses: np.ndarray) -> Targets:
+        """Joint targets of the commanded poses (..., 4, 4), never raising."""
+        return self.targets(self.robot.workspace.to_coordinates(poses))
 
     def targets(self, commands: np.ndarray) -> Targets:
-        """Joint targets of the commands, coordinates (run, move, 6)."""
-        solution = Solution(*kernels.targets(*self.nominal, commands.reshape(-1, 6)))
-        return Targets(
-            solution.angles.reshape(*commands.shape[:-1], len(self.robot.joints)),
-            solution.reached.reshape(commands.shape[:-1]),
-        )
+        """Joint targets of the commands, coordinates (..., 6), never raising."""
+        found = kernels.targets(*self.nominal, commands.reshape(-1, 6))
+        axes = commands.shape[:-1]
+        return Targets(*(part.reshape(*axes, *part.shape[1:]) for part in found))
 
     def commands_for(
         self, commands: np.ndarray, needed: Callable[[np.ndarray], np.ndarray]
@@ -142,12 +125,9 @@ class Controller:
         Raises Unreachable for the first command that cannot be executed.
         """
         solution = self.solve(poses)
-        for index in np.flatnonzero(~solution.reached):
-            reason = (
-                "only beyond the joint limits"
-                if solution.residuals[index] <= TOLERANCE
-                else NOT_REACHED
-            )
+        for index in np.flatnonzero(~solution.executed):
+            there = solution.residuals[index] <= TOLERANCE
+            reason = "only beyond the joint limits" if there else NOT_REACHED
             raise Unreachable(poses[index], solution.residuals[index], reason)
         return solution.angles
 
@@ -174,7 +154,7 @@ class Controller:
             )
 
     def _check_condition(self, knots: np.ndarray, greatest: float) -> None:
-        jacobians = self._chain.jacobians(knots)
+        _, jacobians = self.robot.arm.forward_and_jacobian(knots)
         condition = np.linalg.cond(jacobians / self.robot.workspace.half_ranges[:, None]).max()
         if condition > greatest:
             raise UnfitWorkspace(

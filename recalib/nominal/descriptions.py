@@ -1,14 +1,19 @@
-"""Files that describe robots (URDF): where they are, what they are called, and what they say."""
+"""Files that describe robots (URDF): where they are, their content, and mistakes in them."""
 
 import hashlib
 import importlib
 import importlib.metadata
+import math
 import os
+import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from os import PathLike, fspath
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.files.storage import path_of, read_file
@@ -18,14 +23,29 @@ DATA = "example-robot-data"
 FETCHED = "robot_descriptions"  # of robot_descriptions.py, which fetches and keeps them
 MOST = 16_000_000  # bytes
 MOST_JOINTS = 1000  # Pinocchio takes one after the other by recursion, on a stack that ends
+MOVING = "revolute", "continuous", "prismatic"  # joints
+SHORTEST = 1e-6  # of an axis: Pinocchio may not normalise a shorter one
+MOST_TURN = 4 * math.pi  # rad in an origin: more are degrees
+NUMBERS = {  # attributes of joints and inertials
+    "origin": ("xyz", "rpy"),
+    "axis": ("xyz",),
+    "limit": ("lower", "upper"),
+    "mass": ("value",),
+    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+    "mimic": ("multiplier", "offset"),
+}
+ERROR = "Error:"  # before what urdfdom finds wrong
+STDERR = 2  # its descriptor, which a whole process shares
+_ONE = threading.Lock()  # for one block at a time
 
 
 def find_urdf(urdf: str | PathLike[str]) -> Path:
     """The file of a URDF. One of the user's own comes before one of a package.
 
     Args:
-        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or that of
-            a description in robot_descriptions.py, such as panda_description, if it is installed.
+        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the
+            name of a description in robot_descriptions.py, such as panda_description, if that is
+            installed.
 
     Raises UnknownName, or InvalidFile if it is a path and not a name.
     """
@@ -87,7 +107,7 @@ class UrdfFile:
         return cls(path, content, f"{name} (sha256 {hashlib.sha256(content).hexdigest()[:12]})")
 
 
-def parsed(source: bytes, path: Path) -> ElementTree.Element:
+def parsed(source: bytes, path: Path) -> Element:
     """The root of a URDF.
 
     Args:
@@ -112,6 +132,88 @@ def local_name(name: str, root: str) -> str:
     return name.removeprefix(root[: root.rfind("}") + 1])
 
 
-def link_of(joint: ElementTree.Element, role: str) -> str:
+def link_of(joint: Element, role: str) -> str:
     """Name of the parent or child link of a joint that Pinocchio has accepted."""
     return joint.findall(role)[0].attrib["link"]
+
+
+@contextmanager
+def caught_messages() -> Iterator[list[str]]:
+    """The lines that a block writes to stderr, in place of writing them; filled when it ends.
+
+    Commands report a mistake in one sentence: lines for a compiled library's developers, which no
+    `sys.stderr` of Python's sees, hide it.
+    """
+    lines: list[str] = []
+    with _ONE, tempfile.TemporaryFile() as file:
+        try:
+            before = os.dup(STDERR)
+        except OSError:  # it is closed, so nothing is written there
+            yield lines
+            return
+        os.dup2(file.fileno(), STDERR)
+        try:
+            yield lines
+        finally:
+            os.dup2(before, STDERR)
+            os.close(before)
+            file.seek(0)
+            lines += file.read().decode(errors="replace").splitlines()
+
+
+def check_description(robot: Element, path: Path) -> None:
+    """Raise UnsuitableRobot unless links are a tree, and joints and masses have finite numbers.
+
+    Names of links and joints have to be words that a message and a table can show.
+    """
+    carried: dict[str, str] = {}
+    for part in (*robot.iterfind("link"), *robot.iterfind("joint")):
+        if not (name := part.get("name", "-")).strip() or not name.isprintable():
+            raise UnsuitableRobot(
+                f"a {part.tag} in {path} has the name {part.get('name')!r}; expected: letters that"
+                " can be printed"
+            )
+    for joint in robot.iterfind("joint"):
+        child, name = joint.find("child"), joint.get("name", "")
+        link = "" if child is None else child.get("link", "")
+        if link in carried:
+            raise UnsuitableRobot(
+                f"{link} is the child of two joints, {carried[link]} and {name}, in {path}: a"
+                " closed chain; expected: a tree"
+            )
+        carried |= {link: name} if link else {}
+    for part in robot:
+        for element in (inner for place in (part, *part.findall("inertial")) for inner in place):
+            for key in NUMBERS.get(element.tag, ()):
+                numbers, text = _numbers(element.get(key, "0")), element.get(key)
+                found = f"the {element.tag} of {part.get('name')} in {path} has {key} {text!r}"
+                if not numbers:
+                    raise UnsuitableRobot(f"{found}; expected: a number")
+                if key == "rpy" and max(map(abs, numbers)) > MOST_TURN:
+                    raise UnsuitableRobot(f"{found}; expected: rad, not degrees")
+                axis = element.tag == "axis" and part.get("type") in MOVING
+                if axis and not SHORTEST < max(map(abs, numbers)) < 1 / SHORTEST:
+                    reason = f"the axis of {part.get('name')} has no length"
+                    raise UnsuitableRobot(f"{reason} in {path}")
+
+
+def mistakes(robot: Element, messages: list[str]) -> Iterator[str]:
+    """What is wrong with a URDF: vectors of other lengths, and then what urdfdom wrote."""
+    for part in robot:
+        vectors = ((inner, key, inner.get(key)) for inner in part.iter() for key in ("xyz", "rpy"))
+        for element, key, text in vectors:
+            if text is not None and len(_numbers(text) or ()) != 3:
+                where = f"the {element.tag} of {part.get('name')}"
+                yield f"{where} has {key} {text!r}; expected: three numbers"
+    for line in messages:
+        if line.startswith(ERROR):
+            yield line.removeprefix(ERROR).strip().rstrip(".")
+
+
+def _numbers(text: str) -> list[float] | None:
+    """The numbers in a text; None if any of them is not a finite number."""
+    try:
+        numbers = [float(number) for number in text.split()]
+    except ValueError:
+        return None
+    return numbers if all(map(math.isfinite, numbers)) else None

@@ -14,7 +14,7 @@ import numpy as np
 
 from recalib.numerics.compiled import compiled, inner
 
-TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
+TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of the controller's tolerance
 STEPS = 25
 SMALL = 1e-6  # m, rad: a turn whose sine is less is none, or half a turn
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
@@ -22,7 +22,7 @@ SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
 TRUSTED = 1.5  # coordinates up to which a start polynomial serves: commands lie a little outside
 
 
-Plain = tuple[Any, ...]  # what is in one of the classes below, without its class
+Plain = tuple[Any, ...]  # the fields of one of the classes below
 
 
 class Arms(NamedTuple):
@@ -30,7 +30,7 @@ class Arms(NamedTuple):
 
     Attributes:
         placements: (arm, n + 1, 3, 4) of each joint in the frame of the one before it, and of the
-            tool in that of the last one: turns, and translations [m].
+            tool in the last joint's frame: turns, and translations [m].
         slides: (arm, n) whether a joint slides along its z axis; else it turns about it.
     """
 
@@ -136,18 +136,6 @@ def forward(chain: Plain, angles: np.ndarray) -> np.ndarray:
 
 
 @compiled
-def jacobians(chain: Plain, angles: np.ndarray) -> np.ndarray:
-    """Jacobians (posture, 6, n) of the first arm at joint angles (posture, n) [rad]."""
-    arms, (postures, joints) = Arms(*chain), angles.shape
-    found, pose = np.empty((postures, 6, joints)), np.empty((3, 4))
-    origins, axes = np.empty((joints, 3)), np.empty((joints, 3))
-    for posture in range(postures):
-        _stand(arms, 0, angles[posture], pose, origins, axes)
-        _write_jacobian(arms, pose, origins, axes, found[posture])
-    return found
-
-
-@compiled
 def solve(chain: Plain, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Joint angles (posture, n) [rad] that take the first arm's tool to poses, and their errors."""
     arms = Arms(*chain)
@@ -176,8 +164,8 @@ def targets(
     Also the errors (n,) of their poses [m, rad], and whether they lie within the limits (n,).
 
     Args:
-        placements, ..., upper: those of `ControllerArrays`, one by one: a call unpacks them three
-            times as fast so, which is half of the time of few moves.
+        placements, ..., upper: the fields of `ControllerArrays`, one by one: a call unpacks them
+            three times as fast so, which is half of the time of few moves.
         commands: in coordinates.
     """
     arms, box = Arms(placements, slides), Region(centre, half_ranges, vectors)
@@ -326,7 +314,7 @@ def _stand(
 def _write_jacobian(
     arms: Arms, pose: np.ndarray, origins: np.ndarray, axes: np.ndarray, jacobian: np.ndarray
 ) -> None:
-    """Write how the tool moves (6, n) with joints that lie and point as `_stand` says."""
+    """Write how the tool moves (6, n) with joints at origins and along axes from `_stand`."""
     for joint in range(len(origins)):
         for row in range(3):
             if arms.slides[0, joint]:
@@ -463,10 +451,8 @@ def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
                 pivot = row
         if pivot != column:
             for other in range(column, size):
-                matrix[column, other], matrix[pivot, other] = (
-                    matrix[pivot, other],
-                    matrix[column, other],
-                )
+                number = matrix[column, other]
+                matrix[column, other], matrix[pivot, other] = matrix[pivot, other], number
             vector[column], vector[pivot] = vector[pivot], vector[column]
         inverse = 1 / matrix[column, column]
         for row in range(column + 1, size):

@@ -3,6 +3,7 @@
 If a joint slides, its joint angle is a length [m], its torque a force [N].
 """
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Self
 
@@ -10,13 +11,54 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from recalib.arrays import array_of
-from recalib.nominal.coupling import Coupling
+from recalib.arrays import Shape, array_of
+from recalib.files.quantities import ANGLE, LENGTH
 
 
 def tool_frame(model: pin.Model, tool: str) -> int:
     """Index of the frame of the link `tool`, which may share its name with a joint."""
     return model.getFrameId(tool, pin.FrameType.BODY)
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """The coordinates of all joints by those that a controller reports: some may share a motor.
+
+    Attributes:
+        columns: names of the joints that a controller reports.
+        slides: (column,) whether each is a length.
+        gains: (joint, column) by which joints follow: rad or m for each rad or m.
+        shifts: (joint,) rad, m where joints stand if all columns are zero.
+        limits: (2, column) rad, m, lower and upper.
+    """
+
+    columns: tuple[str, ...]
+    slides: np.ndarray
+    gains: np.ndarray
+    shifts: np.ndarray
+    limits: np.ndarray
+
+    def given(self, name: str, coordinates: ArrayLike, *shapes: Shape) -> np.ndarray:
+        """Coordinates (..., columns) [rad, m] that a caller gives, in one of these shapes.
+
+        Raises InvalidSetting: another shape, NaN, or a number too large for its unit.
+        """
+        array = array_of(name, coordinates, *((*shape, len(self.columns)) for shape in shapes))
+        for kind, chosen in ((ANGLE, ~self.slides), (LENGTH, self.slides)):
+            kind.check(name, array[..., chosen])
+        return array
+
+    def joints(self, columns: np.ndarray) -> np.ndarray:
+        """Coordinates (n, joints) of all joints from those reported (n, columns)."""
+        return columns @ self.gains.T + self.shifts
+
+    def reported(self, joints: np.ndarray) -> np.ndarray:
+        """Coordinates (n, columns) that are reported, from all joints' (n, joints)."""
+        return (joints - self.shifts) @ self._inverse.T
+
+    @cached_property
+    def _inverse(self) -> np.ndarray:
+        return np.linalg.pinv(self.gains)
 
 
 class Arm:
@@ -25,7 +67,7 @@ class Arm:
     Args:
         model: the model, a chain of joints that turn or slide about or along one axis.
         tool: name of the link that is the tool.
-        base: name of the link in whose frame poses are, which is that of the model's world.
+        base: name of the link in whose frame poses are; it is the frame of the model's world.
         coupling: of joints that follow others; None if each joint has a motor.
     """
 
@@ -125,16 +167,15 @@ class Arm:
         along the base's axes.
         """
         postures, shape = self._postures(angles)
-        poses, jacobians = [], []
-        for q in postures:
-            jacobians.append(
-                pin.computeFrameJacobian(
-                    self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED
-                )
-            )
-            poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
-        of_all = np.array(jacobians).reshape(*shape, 6, self.model.nv)
-        return np.array(poses).reshape(*shape, 4, 4), of_all
+        moving = [self._moving(q) for q in postures]
+        poses, jacobians = (np.array([of_one[part] for of_one in moving]) for part in (0, 1))
+        return poses.reshape(*shape, 4, 4), jacobians.reshape(*shape, 6, self.model.nv)
+
+    def _moving(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The tool's pose (4, 4) and Jacobian in one posture, which Pinocchio's data hold then."""
+        model, data, axes = self.model, self._data, pin.LOCAL_WORLD_ALIGNED
+        jacobian = pin.computeFrameJacobian(model, data, q, self._frame, axes)
+        return pin.updateFramePlacement(model, data, self._frame).homogeneous, jacobian
 
     def forward_and_all_jacobians(
         self, angles: np.ndarray
@@ -146,20 +187,16 @@ class Arm:
         """
         poses, joints, placements = [], [], []
         for q in angles:
-            joints.append(
-                pin.computeFrameJacobian(
-                    self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED
-                )
-            )
-            poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
+            pose, by_joint = self._moving(q)
+            poses.append(pose)
+            joints.append(by_joint.reshape(6, -1))  # of one joint, too
             regressor = pin.computeFrameKinematicRegressor(
                 self.model, self._data, self._frame, pin.LOCAL_WORLD_ALIGNED
             )
             placements.append(regressor)
         reached, tools = np.array(poses), np.zeros((len(angles), 6, 6))
         tools[:, :3, :3] = tools[:, 3:, 3:] = reached[:, :3, :3]
-        by_joint = np.array(joints).reshape(len(angles), 6, self.model.nv)  # of one joint, too
-        return reached, by_joint, np.concatenate([np.array(placements), tools], axis=-1)
+        return reached, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)
 
     def gravity_torque(self, angles: ArrayLike) -> np.ndarray:
         """Torques (n, joint) [N m] that hold the arm against gravity at angles (n, joint) [rad]."""

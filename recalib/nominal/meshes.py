@@ -20,7 +20,7 @@ def with_own_meshes(
     It may name any file, so what lies elsewhere is left out, and so are textures.
 
     Args:
-        source: what was read of the URDF at `urdf`.
+        source: the content of the URDF at `urdf`.
         role, other: of shapes that stay, and of those that go.
 
     Returns it in UTF-8, and the names of the meshes that were left out.

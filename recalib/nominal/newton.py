@@ -4,8 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
-SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
+from recalib.nominal.kernels import LONGEST_STEP as LONGEST_STEP
+from recalib.nominal.kernels import SINGULAR
+
 # Of x, y and z the two others, in a circle.
 NEXT, LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 

@@ -2,7 +2,7 @@
 
 A pose is a homogeneous matrix (4, 4) of the tool in the base frame, in metres. Its coordinates are
 a 6-vector u: the position (x, y, z) relative to the centre of the workspace along the base's axes,
-and three numbers for the orientation relative to that of the centre: (roll, pitch, yaw) of
+and three numbers for the orientation relative to the centre's: (roll, pitch, yaw) of
 R = R_centre Rz(yaw) Ry(pitch) Rx(roll), or a rotation vector r of R = R_centre exp([r]). They are
 divided by the half-ranges of the workspace, so that the workspace is the box [-1, 1]^6 and no norm
 mixes metres with radians.
@@ -42,7 +42,7 @@ class Workspace:
         if self.coordinates not in COORDINATES:
             raise UnknownName("coordinates of orientations", self.coordinates, COORDINATES)
         roll, pitch, yaw = turns = np.abs(self.half_ranges[ORIENTATION])
-        if self._vectors:
+        if self.region[2]:
             unique, most = np.linalg.norm(turns) < np.pi, "a diagonal below 180 deg"
         else:
             unique = pitch < np.pi / 2 and max(roll, yaw) < np.pi
@@ -64,14 +64,10 @@ class Workspace:
         numbers = kernels.coordinates_of(poses.reshape(-1, 4, 4), self.region)
         return numbers.reshape(*poses.shape[:-2], 6)
 
-    @property
-    def _vectors(self) -> bool:
-        return self.coordinates == "rotation_vector"
-
     @cached_property
     def region(self) -> tuple[np.ndarray, np.ndarray, bool]:
         """The workspace as compiled loops read it: see `recalib.nominal.kernels.Region`."""
-        return self.centre, self.half_ranges, self._vectors
+        return self.centre, self.half_ranges, self.coordinates == "rotation_vector"
 
     def sample(self, generator: np.random.Generator, *shape: int) -> np.ndarray:
         """Coordinates (*shape, 6) drawn uniformly from the box."""

@@ -6,8 +6,7 @@ from xml.etree import ElementTree
 import pinocchio as pin
 
 from recalib.files.storage import read_file
-from recalib.nominal.descriptions import MOST, find_urdf, parsed
-from recalib.nominal.foreign_messages import caught_messages
+from recalib.nominal.descriptions import MOST, caught_messages, find_urdf, parsed
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.meshes import with_own_meshes
 
@@ -37,9 +36,10 @@ def load_shapes(arm: Arm, urdf: str | PathLike[str]) -> tuple[pin.GeometryModel,
                 missing.append(name)
                 continue
             for shape in placed:
-                place, shape.name = carrier.placement * shape.placement, name
-                its = name, carrier.parentJoint, frame, place, shape.geometry
-                shapes.addGeometryObject(pin.GeometryObject(*its))
+                place = carrier.placement * shape.placement
+                shapes.addGeometryObject(
+                    pin.GeometryObject(name, carrier.parentJoint, frame, place, shape.geometry)
+                )
     return shapes, missing
 
 

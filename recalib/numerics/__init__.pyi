@@ -1,5 +1,3 @@
-"""The public names and their modules."""
-
 from .randomness import generator as generator
 from .regression import LENGTHS as LENGTHS
 from .regression import NOISE as NOISE

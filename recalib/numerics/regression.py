@@ -1,6 +1,6 @@
 """Gaussian process regression, for several outputs with one covariance.
 
-The covariance is that of a linear trend, a smooth function with a length along each input, and
+The covariance is the sum of a linear trend's, a smooth function with a length along each input, and
 white noise. The outputs are scaled to a deviation of one. The hyperparameters are the logarithms of
 the trend's variance, of the smooth function's, of its lengths and of the noise's variance.
 """
@@ -14,7 +14,7 @@ FIRST_LENGTH = 5.0
 # Where searches start: from one alone, few data may all be taken for noise.
 FIRST_NOISES = 1e-3, 1e-1, 1e-6
 FEWEST = 6  # points to judge hyperparameters by
-# Points to judge hyperparameters by: the time grows with their cube, and more tell little more.
+# Points to judge hyperparameters by: the time grows with their cube, and more add little.
 MOST = 128
 STEPS = 50  # of a search
 ROUNDING = 10 * np.finfo(float).eps  # an output that deviates by less is constant: not to be scaled
@@ -35,11 +35,11 @@ class Process:
     Args:
         inputs: (n, d), each of the order of one.
         outputs: (n, k), in any unit.
-        hyperparameters: (d + 3,); default: those of the largest marginal likelihood.
+        hyperparameters: (d + 3,); default: with the largest marginal likelihood.
 
     Attributes:
         hyperparameters: (d + 3,) as used.
-        gain: by how much the logarithm of the marginal likelihood exceeds that of white noise, less
+        gain: by how much the logarithm of the marginal likelihood exceeds white noise's, less
             what so many hyperparameters gain by chance (Schwarz's criterion).
     """
 
@@ -52,11 +52,7 @@ class Process:
         self._scale = np.where(deviations > ROUNDING, deviations, 1)
         inputs, outputs = inputs - self._centre, (outputs - self._mean) / self._scale
         if hyperparameters is None:
-            hyperparameters = (
-                _search(inputs[:MOST], outputs[:MOST])
-                if len(inputs) >= FEWEST
-                else _start(inputs.shape[1])
-            )
+            hyperparameters = _search(inputs[:MOST], outputs[:MOST])
         self.hyperparameters = hyperparameters
         self._centred = inputs
         likelihood, self._weights, *_ = _likelihood(hyperparameters, inputs, outputs)
@@ -95,7 +91,7 @@ def _covariances(
 def _likelihood(
     hyperparameters: np.ndarray, inputs: np.ndarray, outputs: np.ndarray
 ) -> tuple[float, np.ndarray, tuple[np.ndarray, bool], np.ndarray, np.ndarray]:
-    """The logarithm of the marginal likelihood, and what it is made of.
+    """The logarithm of the marginal likelihood, and its parts.
 
     Returns also the weights (n, k) of the points, the Cholesky factor of their covariance, and the
     latter's parts by the trend and by the smooth function.
@@ -116,7 +112,7 @@ def _loss(
 ) -> tuple[float, np.ndarray]:
     """The negative logarithm of the marginal likelihood, and its gradient (d + 3,).
 
-    The latter is that of tr((k K^-1 - W W') K) / 2 with W the weights, whatever K depends on.
+    The gradient is of tr((k K^-1 - W W') K) / 2 with W the weights, for any hyperparameter of K.
     """
     try:
         value, weights, factor, *parts = _likelihood(hyperparameters, inputs, outputs)
@@ -136,7 +132,10 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
     """Hyperparameters of the largest marginal likelihood that searches within the bounds find.
 
     A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
+    Of too few points, those from which a search starts.
     """
+    if len(inputs) < FEWEST:
+        return _start(inputs.shape[1])
     from scipy.optimize import minimize  # a process with hyperparameters need not wait for it
 
     dimensions = inputs.shape[1]

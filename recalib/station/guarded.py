@@ -37,7 +37,7 @@ class Guarded:
         opening: makes the station.
         arm: the nominal one.
 
-    Raises StationFailed here and in all that asks it: what it should not have done, in a sentence.
+    Raises StationFailed here and in all methods that call it: its mistake, in a sentence.
     """
 
     def __init__(self, opening: Callable[[], Station], arm: Arm):
@@ -123,7 +123,7 @@ class Guarded:
     def _at_last(self, do: Callable[[Station], None]) -> None:
         """Whatever it is doing: from a thread of its own, for a limited time."""
 
-        def quietly(station: Station) -> None:  # the failure before it is told
+        def quietly(station: Station) -> None:  # the failure before it is reported
             with suppress(Exception):
                 do(station)
 

@@ -1,4 +1,4 @@
-"""Pictures of a board: what they say, and a station that takes them as one that measures poses."""
+"""Poses by pictures of a board, and a station that takes them as one that measures poses."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -45,31 +45,31 @@ class BoardInPictures:
         self._sightings: dict[str, Sighting] = {}
 
     def search(self, path: str, grey: np.ndarray) -> Sighting | None:
-        """What a picture (height, width) at a path says; None if the board is not found.
+        """The board in a picture (height, width) at a path; None if it is not found.
 
-        Raises InvalidFile: the lens cannot be that of the picture.
+        Raises InvalidFile: the picture cannot have been taken with the lens.
         """
         try:
             found = find_corners(self.board, grey)
         except Unusable:
             return None
-        seen = self.board, self.lens, found
-        off = reprojection(*seen, board_pose(*seen))
+        view = self.board, self.lens, found
+        off = reprojection(*view, board_pose(*view))
         if not (typical := float(np.median(np.linalg.norm(off, axis=1)))) < WRONG:
             reason = f"its corners deviate from the given lens by {typical:.3g} px"
             raise InvalidFile(path, f"{reason}; is it this camera's?")
-        corners = good_corners(*seen)
+        corners = good_corners(*view)
         return self.add(path, corners) if len(corners.numbers) >= FEWEST else None
 
     def add(self, path: str, corners: Corners) -> Sighting:
-        """What a picture says with these corners."""
+        """The board in a picture with these corners."""
         self._sightings[path] = sighting(self.board, self.lens, corners, True, self.in_hand)
         return self._sightings[path]
 
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
         """Poses (n, 4, 4) [m], and their information, with the lens to be found.
 
-        Raises InvalidFile: the board is not in a picture, or its size is not that of the lens.
+        Raises InvalidFile: the board is not in a picture, or its size is not the lens's.
         """
         for path in paths:
             if path in self._sightings:

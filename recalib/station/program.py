@@ -58,7 +58,7 @@ class ProgramStation:
 
     def angles(self) -> np.ndarray:
         """See `Station.angles`."""
-        return cast(np.ndarray, self._ask("angles", "angles")["angles"])  # checked by who asks
+        return cast(np.ndarray, self._ask("angles", "angles")["angles"])  # checked by the caller
 
     def measure(self) -> Mapping[str, float | str] | None:
         """See `Station.measure`."""

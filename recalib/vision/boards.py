@@ -16,9 +16,9 @@ from recalib.files.quantities import LENGTH
 from recalib.files.storage import read_file, read_toml
 from recalib.spelling import listed
 
-CHARUCO, APRILTAG, APRILGRID, CHESSBOARD, CIRCLES = KINDS = (
-    *("charuco", "apriltag", "aprilgrid", "chessboard", "circles"),
-)
+CHARUCO, APRILTAG, APRILGRID = "charuco", "apriltag", "aprilgrid"
+CHESSBOARD, CIRCLES = "chessboard", "circles"
+KINDS = CHARUCO, APRILTAG, APRILGRID, CHESSBOARD, CIRCLES
 PLAIN = CHESSBOARD, CIRCLES  # without markers: they have to be seen as a whole
 SHAPE = "kind", "columns", "rows", "square"
 MARKERS = "marker", "dictionary", "first_id"
@@ -42,7 +42,7 @@ class Board:
         square: m, the side of a square, or from a tag to the next; from a row of circles to the
             next.
         marker: m, the side of a marker; 0 without any.
-        dictionary: that of OpenCV, without `DICT_`; empty likewise.
+        dictionary: OpenCV's name of it, without `DICT_`; empty without markers.
         first_id: the number of the first marker.
     """
 
@@ -166,7 +166,7 @@ def read_board(path: str | PathLike[str]) -> Board:
 
 
 def board_in(parts: Mapping[str, Any], path: str | PathLike[str]) -> Board:
-    """The board in what was read of a TOML; its path is for messages. Raises InvalidFile."""
+    """The board in the content of a TOML; its path is for messages. Raises InvalidFile."""
     given = parts.get("board")
     try:
         plain = isinstance(given, dict) and given.get("kind") in PLAIN

@@ -12,7 +12,6 @@ from PIL import Image
 
 from recalib.errors import RecalibError
 from recalib.vision.boards import APRILGRID, CHARUCO, CHESSBOARD, PLAIN, Board
-from recalib.vision.patterns import find_pattern, misplaced, tags_of_kalibr
 
 FEWEST, FEWEST_MARKERS = 8, 4  # corners, and markers, to go by
 MISPLACED = 0.3  # of a marker's side: beside a plane by so much, most markers are of another board
@@ -26,6 +25,10 @@ CLEAR = 0.7  # of the highest contrast: so high it is about the edges to look at
 SMOOTHED = 1.0  # px, against noise
 SOFT = 1.3  # px: a picture that is softer may show nothing because it is blurred
 SMALLEST, LARGEST = 32, 100_000_000  # px: the shorter side of a picture; all of it
+KALIBR_BORDER = 2  # modules of black around the bits of Kalibr's tags
+NEAR = 0.25  # of a tag's side: the window in which its corners are refined
+WINDOWS = 2, 8  # px, either way
+REFINED = cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 50, 1e-3
 
 
 class Unusable(RecalibError):
@@ -50,8 +53,8 @@ class Corners:
 def read_picture(path: Path) -> np.ndarray:
     """A file's grey picture (height, width) as the sensor has it. Raises Unusable.
 
-    A phone on the hand says in its files how it was held, by which viewers turn them. Its lens does
-    not turn with them.
+    A phone on the hand records in its files how it was held, and viewers turn them by that. Its
+    lens does not turn with them.
     """
     try:
         if not path.is_file():
@@ -67,14 +70,13 @@ def read_picture(path: Path) -> np.ndarray:
     picture = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
     if picture is None:
         raise Unusable("it is not a picture")
-    grey: np.ndarray = picture
-    return grey
+    return picture
 
 
 def find_corners(board: Board, picture: np.ndarray) -> Corners:
     """The corners of a board in a grey picture (height, width). Raises Unusable."""
     if board.kind in PLAIN:
-        numbers, pixels = find_pattern(board, picture)
+        numbers, pixels = _pattern(board, picture)
         if not len(numbers):
             what = "corners of the chessboard" if board.kind == CHESSBOARD else "circles"
             blur = _softness(picture)
@@ -108,7 +110,7 @@ def find_corners(board: Board, picture: np.ndarray) -> Corners:
 def _charuco(
     board: Board, layout: Any, picture: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, str | None]:
-    """Numbers (c,) and pixels (c, 2) of corners by one of the layouts, and what is wrong."""
+    """Numbers (c,) and pixels (c, 2) of corners by one of the layouts, and a problem of markers."""
     settings = cv2.aruco.CharucoParameters()
     settings.tryRefineMarkers = True  # by where the others are: it finds more if out of focus
     corners, numbers, *found = cv2.aruco.CharucoDetector(layout, settings).detectBoard(picture)
@@ -134,7 +136,7 @@ def charuco_offset() -> np.ndarray:
 
 
 def are_on_a_line(board: Board, numbers: np.ndarray) -> bool:
-    """Whether no corner (c,) lies beside the line through others: they tell no pose."""
+    """Whether no corner (c,) lies beside the line through others: they determine no pose."""
     points = board.points[numbers]
     return bool(np.linalg.matrix_rank(points - points.mean(axis=0), tol=board.square / 10) < 2)
 
@@ -150,7 +152,7 @@ def _problem(board: Board, places: np.ndarray, markers: np.ndarray, ids: np.ndar
     if numbers.min() < 0 or numbers.max() >= board.markers:
         outside = ids[(numbers < 0) | (numbers >= board.markers)].max()
         return f"marker {outside} is not on the board: this is another one, or has another first_id"
-    if misplaced(places[numbers], markers) > MISPLACED:
+    if _misplaced(places[numbers], markers) > MISPLACED:
         return "markers are not where the board has them: this is another one"
     return None
 
@@ -176,11 +178,11 @@ def _markers(
     """Corners (m, 4, 2) [px] and numbers (m,) of markers."""
     settings = cv2.aruco.DetectorParameters()
     if board.kind == APRILGRID:
-        return tags_of_kalibr(board, picture, settings)
+        return _tags_of_kalibr(board, picture, settings)
     if exact:
         settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_APRILTAG
-    corners, ids, _ = cv2.aruco.ArucoDetector(board.alphabet, settings).detectMarkers(picture)
-    markers, numbers = _as_arrays(corners, ids)
+    detector = cv2.aruco.ArucoDetector(board.alphabet, settings)
+    markers, numbers = _as_arrays(*detector.detectMarkers(picture)[:2])
     return markers - HALF * exact, numbers
 
 
@@ -201,3 +203,75 @@ def _softness(picture: np.ndarray) -> float:
     widths = contrast[edges] / np.maximum(steepest[edges], 1e-9) / np.sqrt(2 * np.pi)
     total = np.quantile(widths, BLURRED) if len(widths) else 0.0
     return float(np.sqrt(max(total**2 - SMOOTHED**2, 0.0)))
+
+
+def _pattern(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers (c,) and pixels (c, 2) of all corners of a chessboard, or of all circles.
+
+    None unless all of them are found.
+    """
+    if board.kind == CHESSBOARD:
+        return _chessboard(board, picture)
+    size, flags = (board.columns, board.rows), cv2.CALIB_CB_ASYMMETRIC_GRID
+    for way in (flags, flags | cv2.CALIB_CB_CLUSTERING):
+        whole, centres = cv2.findCirclesGrid(picture, size, flags=way)
+        if whole:
+            return np.arange(board.columns * board.rows), centres.reshape(-1, 2).astype(float)
+    return np.zeros(0, int), np.zeros((0, 2))
+
+
+def _chessboard(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Corners from the upper left one, by a square's colour if that decides.
+
+    A board with an even number of columns and an odd one of rows, or the other way around, has one
+    upper left corner that is dark. Another board looks the same upside down: it counts as upright.
+    """
+    columns, rows = board.columns - 1, board.rows - 1
+    flags = cv2.CALIB_CB_EXHAUSTIVE + cv2.CALIB_CB_ACCURACY + cv2.CALIB_CB_NORMALIZE_IMAGE
+    whole, found = cv2.findChessboardCornersSB(picture, (columns, rows), flags=flags)
+    if not whole:
+        return np.zeros(0, int), np.zeros((0, 2))
+    grid = found.reshape(rows, columns, 2).astype(float)
+    across, down = grid[0, -1] - grid[0, 0], grid[-1, 0] - grid[0, 0]
+    if across[0] * down[1] - across[1] * down[0] < 0:  # x to the right, y down
+        grid = grid[::-1]
+    if (columns + rows) % 2:
+        middles = (grid[:2, at : at + 2].mean(axis=(0, 1)).round().astype(int) for at in (0, 1))
+        first, second = (np.median(picture[y - 1 : y + 2, x - 1 : x + 2]) for x, y in middles)
+        upside_down = first > second
+    else:
+        upside_down = grid[0, 0].sum() > grid[-1, -1].sum()
+    if upside_down:
+        grid = grid[::-1, ::-1]
+    return np.arange(columns * rows), grid.reshape(-1, 2)
+
+
+def _tags_of_kalibr(
+    board: Board, picture: np.ndarray, settings: Any
+) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (m, 4, 2) [px], clockwise from the upper left, and numbers (m,) of Kalibr's tags."""
+    settings.markerBorderBits = KALIBR_BORDER
+    detector = cv2.aruco.ArucoDetector(board.alphabet, settings)
+    markers, numbers = _as_arrays(*detector.detectMarkers(picture)[:2])
+    for tag in markers:
+        side = np.linalg.norm(tag - np.roll(tag, 1, axis=0), axis=1).min()
+        window = int(np.clip(NEAR * side * (board.square / board.marker - 1) * 2, *WINDOWS))
+        tag[:] = cv2.cornerSubPix(
+            picture, tag.reshape(4, 1, 2).copy(), (window, window), (-1, -1), REFINED
+        )[:, 0]
+    known = np.isin(numbers - board.first_id, np.arange(board.markers))
+    if not len(numbers) or not known.all():
+        return markers, numbers
+    places = board.tags[numbers - board.first_id]
+    turned = [np.roll(markers, step, axis=1) for step in range(4)]  # prints differ in how tags lie
+    return min(turned, key=lambda each: _misplaced(places, each)), numbers
+
+
+def _misplaced(places: np.ndarray, markers: np.ndarray) -> float:
+    """How far markers (m, 4, 2) [px] are from where a plane has them, in sides of theirs."""
+    plane, _ = cv2.findHomography(places.reshape(-1, 2), markers.reshape(-1, 2), cv2.LMEDS)
+    if plane is None:
+        return np.inf
+    expected = cv2.perspectiveTransform(places.astype(float), plane)
+    gaps = np.linalg.norm(expected - markers, axis=-1).mean(axis=1)
+    return float(np.quantile(gaps / np.linalg.norm(markers[:, 0] - markers[:, 1], axis=-1), 0.75))

@@ -1,8 +1,8 @@
 """The lens by pictures of a board anywhere: its model, chosen by evidence, and its parameters.
 
 Poses of the board are not unknowns of the search: for each lens, each has its best pose. So the
-normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and what
-they leave says how far the search is from its end, in standard deviations.
+normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and
+their step gives the distance from the end of the search, in standard deviations.
 """
 
 from collections.abc import Sequence
@@ -49,16 +49,15 @@ def find_lens(views: Sequence[View], size: tuple[int, int]) -> FoundLens:
     """The lens by the pictures (at least `FEWEST`) of boards anywhere.
 
     A richer model has to be far more probable than a simpler one, to be chosen, and so does a
-    fisheye. They are tried only if a simpler pinhole leaves what they could explain.
+    fisheye. They are tried only if a simpler pinhole leaves residuals that they could explain.
     """
-    search = _Search(views)
-    best = last = search.best_from(search.straight(size, False))
+    best = last = _best_from(views, _straight(views, size, False))
     for count in PINHOLES[1:]:
-        if best.converged and search.gain(_extended(best.lens, PINHOLES[-1])) < CONVINCING:
+        if best.converged and _gain(views, _extended(best.lens, PINHOLES[-1])) < CONVINCING:
             return best
-        last = search.best_from(_extended(last.lens, count))
+        last = _best_from(views, _extended(last.lens, count))
         best = _more_probable(best, last)
-    return _more_probable(best, search.best_from(search.straight(size, True)))
+    return _more_probable(best, _best_from(views, _straight(views, size, True)))
 
 
 def _extended(lens: Lens, count: int) -> Lens:
@@ -80,7 +79,7 @@ class _Normal(NamedTuple):
 
     Attributes:
         poses: (4, 4) m of the board in the camera, in each picture.
-        squares: px^2, the sum of those of reprojection errors.
+        squares: px^2, the sum of squared reprojection errors.
         free: how many of these the poses do not make up for.
         information, gradient: (k, k) and (k,), by the parameters of the lens [px, 1].
     """
@@ -97,64 +96,61 @@ class _Normal(NamedTuple):
         return max(self.squares / (self.free - len(self.gradient)), LEAST_NOISE**2)
 
 
-class _Search:
-    """Pictures of boards, by which lenses are sought."""
+def _straight(views: Sequence[View], size: tuple[int, int], fisheye: bool) -> Lens:
+    """The best of a few lenses that look straight ahead, without distortion."""
+    some = slice(None, None, max(1, len(views) // FEWEST))
+    x, y = (side / 2 - 0.5 for side in size)
+    lenses = [
+        Lens(size, np.array([[focal, 0, x], [0, focal, y], [0, 0, 1]]), np.zeros(4), fisheye)
+        for focal in max(size) * np.array(FOCAL_LENGTHS)
+    ]
+    return min(lenses, key=lambda lens: _squares(lens, views[some]))
 
-    def __init__(self, views: Sequence[View]):
-        self._views = views
 
-    def straight(self, size: tuple[int, int], fisheye: bool) -> Lens:
-        """The best of a few lenses that look straight ahead, without distortion."""
-        some = slice(None, None, max(1, len(self._views) // FEWEST))
-        x, y = (side / 2 - 0.5 for side in size)
-        lenses = [
-            Lens(size, np.array([[focal, 0, x], [0, focal, y], [0, 0, 1]]), np.zeros(4), fisheye)
-            for focal in max(size) * np.array(FOCAL_LENGTHS)
-        ]
-        return min(lenses, key=lambda lens: _squares(lens, self._views[some]))
+def _best_from(views: Sequence[View], lens: Lens) -> FoundLens:
+    """The best lens of its model, by Levenberg's and Marquardt's steps from one nearby."""
+    here, damping, converged = _normal(views, lens), DAMPING, False
+    for _ in range(STEPS):
+        precision = _precision(lens, here)
+        whole = np.linalg.solve(precision, here.gradient)
+        if converged := bool(here.gradient @ whole < CONVERGED**2 * here.variance):
+            break
+        damped = precision + damping * np.diag(precision.diagonal())
+        moved = moved_lens(lens, np.linalg.solve(damped, here.gradient))
+        if moved and _squares(moved, views, here.poses) < here.squares:
+            lens, here, damping = moved, _normal(views, moved, here.poses), damping / 10
+        elif damping < STIFFEST:
+            damping *= 10
+        else:
+            break
+    squares = max(here.squares, here.free * LEAST_NOISE**2)
+    count = len(here.gradient)
+    evidence = -here.free / 2 * np.log(squares) - count / 2 * np.log(here.free)
+    return FoundLens(lens, float(np.sqrt(here.variance)), float(evidence), converged)
 
-    def best_from(self, lens: Lens) -> FoundLens:
-        """The best lens of its model, by Levenberg's and Marquardt's steps from one nearby."""
-        here, damping, converged = self._normal(lens), DAMPING, False
-        for _ in range(STEPS):
-            precision = _precision(lens, here)
-            whole = np.linalg.solve(precision, here.gradient)
-            if converged := bool(here.gradient @ whole < CONVERGED**2 * here.variance):
-                break
-            damped = precision + damping * np.diag(precision.diagonal())
-            moved = moved_lens(lens, np.linalg.solve(damped, here.gradient))
-            if moved and _squares(moved, self._views, here.poses) < here.squares:
-                lens, here, damping = moved, self._normal(moved, here.poses), damping / 10
-            elif damping < STIFFEST:
-                damping *= 10
-            else:
-                break
-        squares = max(here.squares, here.free * LEAST_NOISE**2)
-        count = len(here.gradient)
-        evidence = -here.free / 2 * np.log(squares) - count / 2 * np.log(here.free)
-        return FoundLens(lens, float(np.sqrt(here.variance)), float(evidence), converged)
 
-    def gain(self, lens: Lens) -> float:
-        """How much more probable the best lens of this model is, about, than this one."""
-        here = self._normal(lens)
-        step = np.linalg.solve(_precision(lens, here), here.gradient)
-        return float(here.gradient @ step / here.variance - np.log(here.free)) / 2
+def _gain(views: Sequence[View], lens: Lens) -> float:
+    """How much more probable the best lens of this model is, about, than this one."""
+    here = _normal(views, lens)
+    step = np.linalg.solve(_precision(lens, here), here.gradient)
+    return float(here.gradient @ step / here.variance - np.log(here.free)) / 2
 
-    def _normal(self, lens: Lens, starts: Sequence[np.ndarray | None] = ()) -> _Normal:
-        pairs = zip(self._views, starts or [None] * len(self._views), strict=True)
-        seen = [sighting(board, lens, view, True, False, at) for (board, view), at in pairs]
-        own = slice(len(BOARD), None)
-        return _Normal(
-            [one.pose for one in seen],
-            sum(one.squares for one in seen),
-            sum(one.free for one in seen),
-            np.sum([one.information[own, own] for one in seen], axis=0),
-            np.sum([one.gradient[own] for one in seen], axis=0),
-        )
+
+def _normal(views: Sequence[View], lens: Lens, starts: Sequence[np.ndarray | None] = ()) -> _Normal:
+    pairs = zip(views, starts or [None] * len(views), strict=True)
+    sightings = [sighting(board, lens, view, True, False, at) for (board, view), at in pairs]
+    own = slice(len(BOARD), None)
+    return _Normal(
+        [one.pose for one in sightings],
+        sum(one.squares for one in sightings),
+        sum(one.free for one in sightings),
+        np.sum([one.information[own, own] for one in sightings], axis=0),
+        np.sum([one.gradient[own] for one in sightings], axis=0),
+    )
 
 
 def _precision(lens: Lens, found: _Normal) -> np.ndarray:
-    """The information (k, k) of pictures on a lens, and what is known of any lens before."""
+    """The information (k, k) of pictures on a lens, with the prior of any lens."""
     prior = np.array([unit * spread for _, _, unit, spread in OPTICS])[optics_kinds(lens)]
     return found.information + np.diag(found.variance / prior**2)
 

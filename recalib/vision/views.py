@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from recalib.identification.model.linearisation import displaced
 from recalib.identification.model.optics import BOARD, Optics
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
@@ -53,9 +53,7 @@ def board_pose(
         if not np.isfinite(information).all():
             return np.full((4, 4), np.nan)
         step = np.linalg.lstsq(information, by_pose.T @ residuals, rcond=None)[0]
-        moved = pose.copy()
-        moved[:3, 3] += step[:3]
-        moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
+        moved = displaced(pose, step)
         expected, slopes_there = projected(points, lens, moved)
         there = (pixels - expected).ravel()
         if not there @ there < residuals @ residuals:
@@ -95,7 +93,7 @@ class Sighting(NamedTuple):
     Attributes:
         pose: (4, 4) m of the camera in the board where it is on the hand; of the board in the
             camera otherwise.
-        squares: px^2, the sum of those of reprojection errors.
+        squares: px^2, the sum of squared reprojection errors.
         free: how many of these the pose does not make up for.
     """
 
@@ -117,7 +115,7 @@ def sighting(
     in_hand: bool,
     start: np.ndarray | None = None,
 ) -> Sighting:
-    """What a view says.
+    """The pose that a view determines, with its information on the optics.
 
     Args:
         fitted: whether the lens is sought, too; otherwise it is known.
@@ -151,7 +149,7 @@ def predicted_views(
     """Of pictures in which poses (n, 4, 4) [m] would be measured, before they are taken.
 
     Returns the slopes (n, 6, o) of `Optics`, with zeros where the board would not be found, and
-    whether most of its corners would be (n,). Arguments are those of `sighting`.
+    whether most of its corners would be (n,). Arguments as of `sighting`.
     """
     count = len(BOARD) + len(optics_kinds(lens))
     slopes, visible = np.zeros((len(poses), 6, count)), np.zeros(len(poses), dtype=bool)
@@ -177,8 +175,7 @@ def optics_of(lens: Lens, sightings: Sequence[Sighting]) -> tuple[np.ndarray, Op
 
 def _compensation(by_pose: np.ndarray, by_optics: np.ndarray) -> np.ndarray:
     """The pose (6, o) that compensates for optics, by derivatives (2 c, 6) and (2 c, o)."""
-    slopes: np.ndarray = -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
-    return slopes
+    return -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
 
 
 def projected(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -206,8 +203,7 @@ def _found(
     across = (slopes[:, 3:6].reshape(-1, 2, 3) @ turn)[..., :2]  # px for a m on the board
     narrow = (board.marker or board.square) * np.linalg.norm(across, -2, axis=(1, 2))
     faces = np.linalg.det(across) > 0
-    found: np.ndarray = ahead & inside & faces & (narrow > NARROW)
-    return found
+    return ahead & inside & faces & (narrow > NARROW)
 
 
 def _derivatives(

@@ -16,14 +16,14 @@ from replication.campaign.homes import random_home
 from replication.campaign.setups import Setup, robot_in
 from replication.config.study import Study
 from replication.scenarios.assignments import Ways, assign, compare
-from replication.scenarios.nominal import Nominal, nominal
+from replication.scenarios.nominal import Nominal, nominal_of
 from replication.scenarios.plants import nominal_robot
 
 
 def design(study: Study) -> list[dict[str, Any]]:
     """The rows of the table. Raises RecalibError: robots refuse too many.
 
-    Rows of the sequence that a robot refuses are left out, and said so.
+    Rows of the sequence that a robot refuses are left out and reported.
     """
     drawn: list[dict[str, Any]] = []
     for row in rows(study.campaign):
@@ -41,18 +41,18 @@ def draw(study: Study, number: int, row: Row) -> Setup:
     plan, levels, damage = study.campaign, row.levels, study.paper_damage
     random = generator(plan.seed, "setup", row.number)
     seed = int(random.integers(2**32))
-    its = robot_in(nominal(study, levels["robot"]), levels, study)
-    controller, refused = _controller(its, levels["home"], plan.home_spread, random)
-    robot, joints = controller.robot, list(its.robot.home)
+    nominal = robot_in(nominal_of(study, levels["robot"]), levels, study)
+    controller, refused = _controller(nominal, levels["home"], plan.home_spread, random)
+    robot, joints = controller.robot, list(nominal.robot.home)
     tests = robot.workspace.sample(random, damage.poses)
     if row.number == 0:  # as the study itself has it, by its own poses
-        entries = assign(its, damage, study.seed)[1]
+        entries = assign(nominal, damage, study.seed)[1]
     else:
-        ways = ways_in(its, levels, study)
+        ways = ways_in(nominal, levels, study)
         if levels["assignment"] == "any":
             entries = ways[int(row.share * len(ways))]
         else:
-            scale = its.robot.workspace.scale_to(study.robots[study.robot].workspace)
+            scale = nominal.robot.workspace.scale_to(study.robots[study.robot].workspace)
             nearest = compare(controller, ways, tests, damage.published, scale, levels["error"])[1]
             entries = ways[nearest]
     position, orientation = initial_errors(controller, entries, tests, levels["error"])
@@ -72,18 +72,18 @@ def draw(study: Study, number: int, row: Row) -> Setup:
 
 
 def _controller(
-    its: Nominal, home: str, spread: float, random: np.random.Generator
+    nominal: Nominal, home: str, spread: float, random: np.random.Generator
 ) -> tuple[Controller, int]:
     """The controller at its home, and how many homes it refused before."""
-    robot, greatest = nominal_robot(its), its.controller.greatest_condition
+    robot, greatest = nominal_robot(nominal), nominal.controller.greatest_condition
     if home == "configured":
         return Controller(robot, greatest), 0
     return random_home(robot, spread, greatest, random)
 
 
-def ways_in(its: Nominal, levels: Mapping[str, Any], study: Study) -> Ways:
+def ways_in(nominal: Nominal, levels: Mapping[str, Any], study: Study) -> Ways:
     """All assignments of the paper's damage, whose lengths shrink with the workspace."""
-    damage, entry = study.paper_damage, its.robot
+    damage, entry = study.paper_damage, nominal.robot
     scale = entry.workspace.scale_to(study.robots[study.robot].workspace)
     lengths = [scale * length for length in damage.shorten]
     return Ways(entry.links, lengths, list(entry.home), damage.shift, levels["shortening"])
@@ -97,4 +97,4 @@ def initial_errors(
     desired = workspace.to_poses(tests)
     achieved = apply(controller.robot, damage).forward(controller.inverse(desired))
     errors = pose_errors(workspace, achieved, desired, error)
-    return np.array([its.mean() for its in errors]) * (100, np.degrees(1))
+    return np.array([values.mean() for values in errors]) * (100, np.degrees(1))

@@ -40,4 +40,5 @@ def rows(plan: Campaign) -> Iterator[Row]:
         for *numbers, share in sampler.random(plan.setups - 1).tolist():
             number += 1
             pairs = zip(factors.items(), numbers, strict=True)
-            yield Row(number, {name: its[int(u * len(its))] for (name, its), u in pairs}, share)
+            drawn = {name: levels[int(u * len(levels))] for (name, levels), u in pairs}
+            yield Row(number, drawn, share)

@@ -32,10 +32,10 @@ def random_home(
     for refused in range(CANDIDATES):
         home = np.radians(random.integers(low, high, endpoint=True))
         workspace = replace(robot.workspace, centre=robot.arm.forward(home[None])[0])
-        there = replace(robot, home=home, workspace=workspace)
-        if _reaches_corners(there, chain):
+        candidate = replace(robot, home=home, workspace=workspace)
+        if _reaches_corners(candidate, chain):
             try:
-                return Controller(there, greatest_condition), refused
+                return Controller(candidate, greatest_condition), refused
             except UnfitWorkspace:
                 pass
     raise UnfitWorkspace(f"the {robot.name}'s controller refuses all of {CANDIDATES} random homes")

@@ -21,7 +21,7 @@ def tune(study: Study, learner: str, scenario: Path) -> pd.DataFrame:
         scenario: file of the study's own scenario, on which it is tuned.
     """
     rules = rules_of(study.every_learner[learner])
-    lengths = tuple(sorted(its for name, its in trained(study) if name == learner))
+    lengths = tuple(sorted(iterations for name, iterations in trained(study) if name == learner))
     # the linear rate of section 7 belongs to the schedule of equal visits
     variant = Variant(rules, lengths, improved=rules.equal_visits)
     return Replicate(study, reference(study, Resolved.read(scenario)), 0).measure(

@@ -8,6 +8,7 @@ import csv
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 from typing import Any, Self
 
@@ -19,7 +20,7 @@ from replication.config.damages import Entry, describe
 from replication.config.part import Frozen
 from replication.config.shipped import OUTCOMES
 from replication.config.study import Study, WorkspaceSettings
-from replication.scenarios.nominal import Nominal, nominal
+from replication.scenarios.nominal import Nominal, nominal_of
 
 DIGITS = 4  # of a length in m
 LINE = 1000  # characters: no list of damages is longer
@@ -51,9 +52,9 @@ class Setup(Frozen):
 
     def nominal(self, study: Study) -> Nominal:
         """The robot with its home, tool, workspace and pose coordinates."""
-        its = robot_in(nominal(study, self.levels["robot"]), self.levels, study)
-        home = dict(zip(its.robot.home, map(math.radians, self.home_deg), strict=True))
-        return its.model_copy(update={"robot": its.robot.model_copy(update={"home": home})})
+        nominal = robot_in(nominal_of(study, self.levels["robot"]), self.levels, study)
+        home = dict(zip(nominal.robot.home, map(math.radians, self.home_deg), strict=True))
+        return nominal.model_copy(update={"robot": nominal.robot.model_copy(update={"home": home})})
 
     def rules(self, rules: Rules, study: Study, improved: bool) -> Rules:
         """Rules of a learner with the conventions of the setup.
@@ -99,12 +100,12 @@ def planned(study: Study) -> list[tuple[int, int]]:
     First the setups that are measured again and again, so that the table can be read early.
     """
     plan = study.campaign
-    found = [(its, number) for its in range(plan.replicated) for number in range(plan.replicates)]
-    found += [(its, 0) for its in range(plan.replicated, plan.setups)]
+    measurements = [*product(range(plan.replicated), range(plan.replicates))]
+    measurements += [(setup, 0) for setup in range(plan.replicated, plan.setups)]
     shipped = Path(OUTCOMES)
-    there = pd.read_csv(shipped)[["setup", "replicate"]] if shipped.exists() else pd.DataFrame()
-    measured = set(there.itertuples(index=False, name=None))
-    return [its for its in found if its not in measured]
+    outcomes = pd.read_csv(shipped)[["setup", "replicate"]] if shipped.exists() else pd.DataFrame()
+    measured = set(outcomes.itertuples(index=False, name=None))
+    return [measurement for measurement in measurements if measurement not in measured]
 
 
 def read_design(path: str | Path) -> list[Setup]:

@@ -21,8 +21,8 @@ def ship(folder: Path, table: Path = Path(OUTCOMES)) -> None:
     if table.exists():
         old = pd.read_csv(table)
         measured = pd.MultiIndex.from_frame(new[ROW[:2]])
-        kept = old[~pd.MultiIndex.from_frame(old[ROW[:2]]).isin(measured)]
-        new = pd.concat([kept, new], ignore_index=True)
+        retained = old[~pd.MultiIndex.from_frame(old[ROW[:2]]).isin(measured)]
+        new = pd.concat([retained, new], ignore_index=True)
     with whole(table) as path:
         new.sort_values(ROW, kind="stable").to_csv(path, index=False)
 

@@ -27,13 +27,13 @@ def untrained(study: Study, design: Path) -> pd.DataFrame:
     """
     rows, own = [], study.robots[study.robot].workspace
     for setup in read_design(design):
-        its = setup.nominal(study)
-        controller, scale = nominal_controller(its), its.robot.workspace.scale_to(own)
+        nominal = setup.nominal(study)
+        controller, scale = nominal_controller(nominal), nominal.robot.workspace.scale_to(own)
         random = generator(setup.seed, "untrained")
         desired = controller.robot.workspace.sample(random, study.mapping.poses)
         arm = apply(controller.robot, damages_among(setup.damage))
         worst = coupling(controller, arm, desired).quantile(POSES)
-        ways = ways_in(its, setup.levels, study)
+        ways = ways_in(nominal, setup.levels, study)
         drawn, error = damages_among(ways[int(random.integers(len(ways)))]), setup.levels["error"]
         tests = controller.robot.workspace.sample(random, study.paper_damage.poses)
         errors = initial_errors(controller, drawn, tests, error) / (scale, 1)

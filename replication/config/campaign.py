@@ -1,6 +1,6 @@
 """What the paper leaves open, and the ways in which it could be decided.
 
-A level's reason stands beside it in config.yaml. The first level of each factor is that of the
+The reason for a level is next to it in config.yaml. The first level of each factor is that of the
 reference study.
 """
 

@@ -1,4 +1,4 @@
-"""Mistakes in a configuration as sentences: the key, what stood there, what would be valid."""
+"""Mistakes in a configuration as sentences: the key, its value, what would be valid."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
@@ -34,8 +34,8 @@ class Mistake(NamedTuple):
     Attributes:
         path: of the key.
         fault: the rest of a sentence that begins with the path.
-        also: other keys that do not go together with this one: it is told where somebody wrote any
-            of them.
+        also: other keys that do not go together with this one: the mistake is reported at the
+            first of them that the user's sources set.
     """
 
     path: KeyPath
@@ -52,15 +52,15 @@ def dotted(path: KeyPath) -> str:
     return "".join(parts).removeprefix(".")
 
 
-def unlike(path: KeyPath, stood: Any, valid: str, *also: KeyPath) -> Mistake:
+def unlike(path: KeyPath, value: Any, valid: str, *also: KeyPath) -> Mistake:
     """A value that is none of the valid ones."""
-    return Mistake(path, f" is {shown(stood)}{EXPECTED}{valid}", also)
+    return Mistake(path, f" is {shown(value)}{EXPECTED}{valid}", also)
 
 
 def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:
     """A name that is not among the valid ones; the path may end with it."""
-    stood = ": unknown name" if path[-1] == name else f" is {shown(name)}"
-    return Mistake(path, f"{stood}; {instead(name, valid)}")
+    fault = ": unknown name" if path[-1] == name else f" is {shown(name)}"
+    return Mistake(path, f"{fault}; {instead(name, valid)}")
 
 
 def shown(value: Any) -> str:

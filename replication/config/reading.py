@@ -24,8 +24,8 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = ()) ->
         checks: what to ask of the study beyond its types, each where those before found nothing.
 
     Raises InvalidConfiguration, with file, line and column of every mistake. The file is taken to
-    be right by itself: what stands in it and does not go together with an overlay is told of the
-    last overlay, without a line.
+    be right by itself: if one of its values does not go together with an overlay, the mistake is
+    reported at the last overlay, without a line.
     """
     sources = [*map(placed, (path, *overlays))]
     whole = reduce(Placed.under, sources)
@@ -56,7 +56,7 @@ def _at_its_place(
     """The mistakes where they stand, in that order; what many uses of an anchor share, once.
 
     Args:
-        own: the sources that somebody wrote who is told of it.
+        own: the user's own sources, at which mistakes are reported.
     """
     lines: dict[tuple[Place, str], Mistake] = {}
     for mistake in mistakes:

@@ -1,4 +1,4 @@
-"""What the types refuse, as mistakes: the key, what stood there, and pydantic's own words."""
+"""What the types refuse, as mistakes: the key, its value, and pydantic's own words."""
 
 import re
 from collections import defaultdict
@@ -14,8 +14,8 @@ from replication.config.messages import EXPECTED, Mistake, unlike
 from replication.config.schema import find, keys, meaning
 
 KEY = "[key]"  # how pydantic ends the place of a key that is no valid name
-# What it says of Python, said of YAML.
-SAID = {
+# Pydantic's terms of Python, in terms of YAML.
+YAML_TERMS = {
     r"^\w+ should (be|have) ": "",
     r"a valid dictionary.*": "a mapping",
     "a valid tuple": "a list",
@@ -33,51 +33,53 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
 
     A misspelt key does not count as missing.
     """
-    found, meant = {}, set()
+    mistakes, intended = {}, set()
     errors = error.errors(include_url=False)
-    for refusal in sorted(errors, key=lambda its: its["type"] == "missing"):
+    for refusal in sorted(errors, key=lambda detail: detail["type"] == "missing"):
         *parents, last = refusal["loc"]
         name = str(last)
         path, schema = find(parents if last == KEY else refusal["loc"])
         match refusal["type"]:
             case "extra_forbidden" | "unexpected_keyword_argument" if name[:1].isdigit():
-                found[path] = Mistake(path, ": a comma ended the number before; expected: a point")
+                fault = ": a comma ended the number before; expected: a point"
+                mistakes[path] = Mistake(path, fault)
             case "extra_forbidden" | "unexpected_keyword_argument":
                 valid = keys(find(parents)[1])
-                meant.add((*path[:-1], nearest(name, valid)))
-                found[path] = Mistake(path, f": unknown key; {instead(name, valid)}")
-            case "missing" if path in meant:
+                intended.add((*path[:-1], nearest(name, valid)))
+                mistakes[path] = Mistake(path, f": unknown key; {instead(name, valid)}")
+            case "missing" if path in intended:
                 pass
             case "missing" if isinstance(last, int):  # the last of so many in a list
-                stood = reduce(getitem, path[:-1], whole)
-                found[path[:-1]] = unlike(path[:-1], stood, f"{last + 1} values")
+                values = reduce(getitem, path[:-1], whole)
+                mistakes[path[:-1]] = unlike(path[:-1], values, f"{last + 1} values")
             case "missing":
-                found[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
+                mistakes[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
             case "too_short" if refusal["input"]:
                 pass  # since none of its values is valid, which each of them says
             case _:
-                found.setdefault(path, unlike(path, refusal["input"], _expected(refusal["msg"])))
-    return [*_together(found.values(), whole)]
+                mistakes.setdefault(path, unlike(path, refusal["input"], _expected(refusal["msg"])))
+    return [*_together(mistakes.values(), whole)]
 
 
 def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
-    """Several keys that one part lacks, and several wrong values of one list, told at once."""
+    """Several keys that one part lacks, and several wrong values of one list, as one mistake."""
     groups = defaultdict(list)
     for mistake in mistakes:
         missing = mistake.fault.startswith(MISSING)
         shared = missing or isinstance(mistake.path[-1], int)
         groups[mistake.path[:-1] if shared else mistake.path, missing].append(mistake)
-    for (path, missing), its in groups.items():
-        if len(its) == 1:
-            yield its[0]
+    for (path, missing), group in groups.items():
+        if len(group) == 1:
+            yield group[0]
         elif missing:
-            yield Mistake(path, f" lacks {listed((str(one.path[-1]) for one in its), 'and')}")
+            lacking = (str(mistake.path[-1]) for mistake in group)
+            yield Mistake(path, f" lacks {listed(lacking, 'and')}")
         else:
-            _, _, expected = its[0].fault.partition(EXPECTED)
+            _, _, expected = group[0].fault.partition(EXPECTED)
             yield unlike(path, reduce(getitem, path, whole), f"each {expected}")
 
 
 def _expected(message: str) -> str:
-    for pattern, text in SAID.items():
+    for pattern, text in YAML_TERMS.items():
         message = re.sub(pattern, text, message)
     return message

@@ -21,15 +21,15 @@ MOST_TIMES = 10_000  # of what is drawn, done or measured again and again
 
 
 def _expected(valid: str) -> WrapValidator:
-    """Whatever is wrong with a value, `valid` is what is said."""
+    """A validator that refuses every wrong value with the same message: what is `valid`."""
 
-    def told(value: Any, validate: Callable[[Any], Any]) -> Any:
+    def validated(value: Any, validate: Callable[[Any], Any]) -> Any:
         try:
             return validate(value)
         except ValidationError:
             raise PydanticCustomError("expected", valid) from None
 
-    return WrapValidator(told)
+    return WrapValidator(validated)
 
 
 def _text(pattern: str, valid: str, longest: int) -> Any:

@@ -78,8 +78,8 @@ def from_mapping(data: Any, place: Place = (COMMAND_LINE,)) -> Placed:
 
 def from_file(path: str | PathLike[str]) -> Placed:
     """Values of a YAML file. Raises InvalidConfiguration."""
-    whole, here = Path(path).absolute(), Path.cwd()
-    name = fspath(whole.relative_to(here) if whole.is_relative_to(here) else path)
+    absolute, folder = Path(path).absolute(), Path.cwd()
+    name = fspath(absolute.relative_to(folder) if absolute.is_relative_to(folder) else path)
     try:
         return _parsed(name, Path(path).read_text(encoding="utf-8-sig"))
     except MarkedYAMLError as error:
@@ -150,10 +150,10 @@ def _place(node: Node, within: Place) -> Place:
 
 def _unreadable(name: str, error: MarkedYAMLError) -> str:
     """Ruamel's reason in a sentence."""
-    begun = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
+    context = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
     mark = error.problem_mark
     problem = str(error.problem).strip()
-    return f"{shown((name, mark.line + 1, mark.column + 1))}: no YAML: {problem}{begun}"
+    return f"{shown((name, mark.line + 1, mark.column + 1))}: no YAML: {problem}{context}"
 
 
 def shown(place: Place) -> str:

@@ -18,7 +18,7 @@ def put_together(study: Study, histories: Sequence[Path]) -> tuple[pd.DataFrame,
     return errors(study.benchmark, history), reached(study.benchmark, history)
 
 
-def _entrants(plan: Benchmark, history: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
+def _competitors(plan: Benchmark, history: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
     groups = history.groupby(["scenario", "learner"])
     for competitor in product(plan.scenarios, (*plan.learners, *plan.papers)):
         yield *competitor, groups.get_group(competitor)
@@ -27,7 +27,7 @@ def _entrants(plan: Benchmark, history: pd.DataFrame) -> Iterator[tuple[str, str
 def errors(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
     """Both errors with their intervals, a row for each scenario, learner and budget of moves."""
     rows = []
-    for scenario, learner, own in _entrants(plan, history):
+    for scenario, learner, own in _competitors(plan, history):
         for moves, measured in own.groupby("moves"):
             row = {"scenario": scenario, "learner": learner, "moves": moves, "seeds": len(measured)}
             for error in ERRORS:
@@ -39,13 +39,13 @@ def errors(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
 def reached(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
     """Moves to each threshold: medians over seeds, with the 5th and the 95th percentile."""
     rows = []
-    for scenario, learner, own in _entrants(plan, history):
+    for scenario, learner, runs in _competitors(plan, history):
         for error, threshold in product((*ERRORS, BOTH), plan.thresholds):
-            moves = moves_to_reach(own, ERRORS if error == BOTH else (error,), threshold)
+            moves = moves_to_reach(runs, ERRORS if error == BOTH else (error,), threshold)
             low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
-            about = {"scenario": scenario, "learner": learner, "error": error}
-            its = {"threshold": threshold, "moves": median, "low": low, "high": high}
-            rows.append(about | its)
+            labels = {"scenario": scenario, "learner": learner, "error": error}
+            cells = {"threshold": threshold, "moves": median, "low": low, "high": high}
+            rows.append(labels | cells)
     return pd.DataFrame(rows)
 
 

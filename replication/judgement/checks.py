@@ -47,8 +47,8 @@ def expect(summary: pd.DataFrame) -> pd.DataFrame:
             low, high = 0.0, NEGLIGIBLE[error]
             if mean >= high:
                 low, high = (mean * (end / mean) ** REACH for end in ends)
-            about = {key: cells[key] for key in KEYS}
-            rows.append(about | {"error": error, "low": low, "high": high})
+            labels = {key: cells[key] for key in KEYS}
+            rows.append(labels | {"error": error, "low": low, "high": high})
     return pd.DataFrame(rows, columns=BAND)
 
 

@@ -78,17 +78,17 @@ class Deviations(Frozen):
         """Those of the project in a folder."""
         return cls.model_validate(from_file(project / DEVIATIONS).plain())
 
-    def untold(self, today: Mapping[str, str]) -> dict[str, str]:
+    def undeclared(self, today: Mapping[str, str]) -> dict[str, str]:
         """Those of today's digests that no entry names, and `REMOVED` for each that is gone."""
-        told = dict(self.registered)
+        declared = dict(self.registered)
         for deviation in self.deviations:
-            told |= deviation.digests
-        gone = {name for name, its in told.items() if its != REMOVED} - {*today}
-        changed = {name: its for name, its in today.items() if told.get(name) != its}
+            declared |= deviation.digests
+        gone = {name for name, digest in declared.items() if digest != REMOVED} - {*today}
+        changed = {name: digest for name, digest in today.items() if declared.get(name) != digest}
         return changed | dict.fromkeys(sorted(gone), REMOVED)
 
 
 if __name__ == "__main__":
     _today = digests(read_study(Path("config.yaml")), Path())
-    for _name, _its in Deviations.read().untold(_today).items():
-        print(f'"{_name}": "{_its}"')
+    for _name, _digest in Deviations.read().undeclared(_today).items():
+        print(f'"{_name}": "{_digest}"')

@@ -20,7 +20,7 @@ def strongest(numbers: np.ndarray, levels: pd.DataFrame) -> str | None:
     chances = {}
     for factor, level in levels.items():
         groups = [numbers[level == name] for name in level.unique()]
-        several = [its for its in groups if len(its) > 1]
+        several = [group for group in groups if len(group) > 1]
         chances[factor] = f_oneway(*several).pvalue if len(several) > 1 else 1.0
     least = min(chances, key=lambda factor: chances[factor])
     return str(least) if chances[least] * len(chances) < 1 - LEVEL else None

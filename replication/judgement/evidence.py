@@ -54,7 +54,7 @@ class Evidence:
         scenario: str | None = None,
         robot: str | None = None,
     ) -> pd.DataFrame:
-        """A row for each seed and measurement of a training; on the paper's damage, if not told."""
+        """A row for each seed and measurement of a training, by default on the paper's damage."""
         place = Place(robot or self.study.robot, scenario or self.study.scenario)
         if iterations not in places(self.study).get(place, {}).get(learner, ()):
             raise NotMeasured(f"experiments.learners.{learner}: [{iterations}]")
@@ -67,9 +67,9 @@ class Evidence:
     ) -> np.ndarray:
         """Position [cm] and orientation errors [degrees] (seed, 2), last or before learning."""
         history = self.history(learner, iterations, scenario)
-        when = 0 if first else iterations
-        then = history[history["iteration"] == when].sort_values("seed")
-        return then[list(ERRORS)].to_numpy()
+        iteration = 0 if first else iterations
+        rows = history[history["iteration"] == iteration].sort_values("seed")
+        return rows[list(ERRORS)].to_numpy()
 
     def findings(self) -> dict[str, Finding]:
         """What was found about each claim, by its id. Raises NotMeasured: nothing was judged."""

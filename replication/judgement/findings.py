@@ -87,7 +87,7 @@ _FINDINGS = TypeAdapter(tuple[Finding, ...])
 
 def read_findings(path: Path) -> dict[str, Finding]:
     """The findings in a file, by the ids of their claims."""
-    return {its.id: its for its in _FINDINGS.validate_json(path.read_bytes())}
+    return {finding.id: finding for finding in _FINDINGS.validate_json(path.read_bytes())}
 
 
 def written(findings: tuple[Finding, ...]) -> bytes:
@@ -106,14 +106,16 @@ def number(name: str, system: str, estimate: Estimate, another: Estimate | None 
     )
 
 
-def spread(its: Model, unsettled: int, shares: dict[Verdict, float], factor: str | None) -> Spread:
+def spread(
+    model: Model, unsettled: int, shares: dict[Verdict, float], factor: str | None
+) -> Spread:
     """How a number differs from setup to setup."""
     return Spread(
-        between=rounded(its.heterogeneity.mean),
-        between_interval=(rounded(its.heterogeneity.low), rounded(its.heterogeneity.high)),
-        luck=rounded(its.luck.mean),
-        luck_interval=(rounded(its.luck.low), rounded(its.luck.high)),
-        setups=len(its.numbers),
+        between=rounded(model.heterogeneity.mean),
+        between_interval=(rounded(model.heterogeneity.low), rounded(model.heterogeneity.high)),
+        luck=rounded(model.luck.mean),
+        luck_interval=(rounded(model.luck.low), rounded(model.luck.high)),
+        setups=len(model.numbers),
         unsettled=unsettled,
         shares={str(verdict): rounded(share) for verdict, share in shares.items()},
         factor=factor,

@@ -24,8 +24,8 @@ def summarise(study: Study, histories: Sequence[Path]) -> pd.DataFrame:
         for learner, lengths in learners.items():
             table = pd.read_parquet(next(files))
             for iterations in lengths:
-                about = {**place._asdict(), "learner": learner, "iterations": iterations}
-                rows.append(about | _measured(table[table["iterations"] == iterations]))
+                labels = {**place._asdict(), "learner": learner, "iterations": iterations}
+                rows.append(labels | _measured(table[table["iterations"] == iterations]))
     return pd.DataFrame(rows)
 
 
@@ -37,9 +37,9 @@ def _measured(history: pd.DataFrame) -> dict[str, float]:
         "moves": last["moves"].max(),
         "refused": last["refused"].sum(),
     }
-    for moment, its in moments.items():
+    for moment, table in moments.items():
         for error in ERRORS:
-            cells |= cells_of_mean(f"{moment}_{error}", its[error].to_numpy())
+            cells |= cells_of_mean(f"{moment}_{error}", table[error].to_numpy())
     return cells
 
 

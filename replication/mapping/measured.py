@@ -30,7 +30,7 @@ def measure(study: Study, scenarios: Sequence[Path], own: Path) -> tuple[pd.Data
     plan, seed, resolved = study.mapping, study.seed, [Resolved.read(path) for path in scenarios]
     damage = Resolved.read(own)
     return (
-        _in_each(resolved, plan.poses, seed, "coupling", lambda *its, **_: coupling(*its)),
+        _in_each(resolved, plan.poses, seed, "coupling", lambda *args, **_: coupling(*args)),
         nearness(damage, plan.poses, seed),
         propagation(damage, plan, seed),
         quantisation(seed),

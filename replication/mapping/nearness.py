@@ -32,7 +32,7 @@ def nearness(resolved: Resolved, poses: int, seed: int) -> pd.DataFrame:
             desired = workspace.sample(generator(seed, "study", "nearness", draw), poses)
             desired[:, POSITION] *= size
             solution = controller.solve(workspace.to_poses(desired))
-            desired, angles = desired[solution.reached], solution.angles[solution.reached]
+            desired, angles = desired[solution.executed], solution.angles[solution.executed]
             _, jacobians = robot.arm.forward_and_jacobian(angles)
             condition = np.linalg.cond(jacobians / workspace.half_ranges[:, None])
             table = coupling(controller, arm, desired)

@@ -95,8 +95,8 @@ def propagation(resolved: Resolved, plan: Mapping, seed: int) -> pd.DataFrame:
             arms = [apply(robot, stage) for stage in (before, [*before, *grown(damages, scale)])]
             for kind, mapping in (("theta", true_commands), ("jacobian", mapping_jacobians)):
                 old, new = (partial(mapping, controller, arm) for arm in arms)
-                about = {"scale": scale, "start": start, "kind": kind}
+                labels = {"scale": scale, "start": start, "kind": kind}
                 rows += [
-                    about | propagation_errors(old, new, centre, offsets) for centre in centres
+                    labels | propagation_errors(old, new, centre, offsets) for centre in centres
                 ]
     return pd.DataFrame(rows)

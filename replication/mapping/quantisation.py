@@ -109,7 +109,7 @@ def quantisation(
             "seed": number,
             "distance": quantisation_error(evaluating[number], centres),
         }
-        for name, its in placed.items()
-        for number, centres in enumerate(its)
+        for name, repetitions in placed.items()
+        for number, centres in enumerate(repetitions)
     ]
     return pd.DataFrame(rows)

@@ -22,18 +22,18 @@ def joint_solutions(
         within: lower and upper limits of the joints, each (joint,).
     """
     angles, residuals = arm.chain.solve(np.tile(pose, (len(starts), 1, 1)), starts)
-    shown = angles[residuals <= TOLERANCE]
-    shown = shown[np.all((shown >= within[0]) & (shown <= within[1]), axis=1)]
+    candidates = angles[residuals <= TOLERANCE]
+    candidates = candidates[np.all((candidates >= within[0]) & (candidates <= within[1]), axis=1)]
     different: list[np.ndarray] = []
-    for one in shown:
-        if not any(are_same(one, other) for other in different):
-            different.append(one)
+    for candidate in candidates:
+        if not any(are_same(candidate, other) for other in different):
+            different.append(candidate)
     return np.array(different).reshape(-1, starts.shape[1])
 
 
-def are_same(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+def are_same(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Whether joint angles (..., joint) [rad] are the same but for full turns."""
-    return np.abs(np.sin((one - other) / 2)).max(axis=-1) <= SAME / 2
+    return np.abs(np.sin((first - second) / 2)).max(axis=-1) <= SAME / 2
 
 
 def solutions(

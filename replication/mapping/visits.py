@@ -36,6 +36,6 @@ def visits(
             learned = np.exp(-squares / (2 * width**2))
             formula = expected_learning(width, DIMENSIONS, 2.0**DIMENSIONS)
             error = learned.std() / np.sqrt(samples)
-            its = {"ratio": learned.mean() / formula, "error": error / formula}
-            rows.append({"width": width, "distance": distance} | its)
+            result = {"ratio": learned.mean() / formula, "error": error / formula}
+            rows.append({"width": width, "distance": distance} | result)
     return pd.DataFrame(rows)

@@ -85,24 +85,27 @@ def _moment(seconds: float) -> str:
     return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
 
 
-def crate(citation: Mapping[str, Any]) -> ROCrate:
+def crate_of(citation: Mapping[str, Any]) -> ROCrate:
     """What the archive says of itself: the workflow, the files, and the run that made them."""
-    its = ROCrate(version="1.1")  # the one on which the profiles of runs are built
-    its.name = citation["title"]
-    its.description = "Code, results, recordings and article of a replication, and its run."
-    its.license = its.add(ContextEntity(its, LICENCE, {"@type": "CreativeWork", "name": "MIT"}))
+    crate = ROCrate(version="1.1")  # the one on which the profiles of runs are built
+    crate.name = citation["title"]
+    crate.description = "Code, results, recordings and article of a replication, and its run."
+    licence = {"@type": "CreativeWork", "name": "MIT"}
+    crate.license = crate.add(ContextEntity(crate, LICENCE, licence))
     for address, name in PROFILES.items():
-        about = {
+        profile = {
             "@type": ["CreativeWork", "Profile"],
             "name": name,
             "version": address.rpartition("/")[-1],
         }
-        its.root_dataset.append_to("conformsTo", its.add(ContextEntity(its, address, about)))
+        entity = crate.add(ContextEntity(crate, address, profile))
+        crate.root_dataset.append_to("conformsTo", entity)
     authors = [
-        its.add(Person(its, f"#{it['name']}", {"name": it["name"]})) for it in citation["authors"]
+        crate.add(Person(crate, f"#{author['name']}", {"name": author["name"]}))
+        for author in citation["authors"]
     ]
-    its.root_dataset["author"] = authors
-    workflow = its.add_workflow(
+    crate.root_dataset["author"] = authors
+    workflow = crate.add_workflow(
         "Snakefile",
         "Snakefile",
         properties={"name": "The replication", "license": LICENCE},
@@ -114,38 +117,38 @@ def crate(citation: Mapping[str, Any]) -> ROCrate:
     results = {path: PUBLISHED / path.relative_to(RESULTS) for path in chosen()}
     for path, place in (code | results).items():
         kind = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
-        about = {"encodingFormat": kind, "contentSize": str(path.stat().st_size)}
-        its.add_file(path, place.as_posix(), properties=about)
-    _add_run(its, workflow, results, authors)
-    return its
+        properties = {"encodingFormat": kind, "contentSize": str(path.stat().st_size)}
+        crate.add_file(path, place.as_posix(), properties=properties)
+    _add_run(crate, workflow, results, authors)
+    return crate
 
 
 def _add_run(
-    its: ROCrate,
+    crate: ROCrate,
     workflow: ComputationalWorkflow,
     results: Mapping[Path, Path],
     authors: list[Person],
 ) -> None:
     """An action for the whole run, and one for each job whose results are kept."""
     noted = [(path, note) for path, note in notes() if path in results and note["endtime"]]
-    about = {"name": "A run of the workflow", "agent": authors}
+    properties = {"name": "A run of the workflow", "agent": authors}
     if noted:
-        about["startTime"] = _moment(min(note["starttime"] for _, note in noted))
-        about["endTime"] = _moment(max(note["endtime"] for _, note in noted))
-    made = [its.dereference(place.as_posix()) for place in results.values()]
-    actions = [its.add_action(workflow, "#run", result=made, properties=about)]
+        properties["startTime"] = _moment(min(note["starttime"] for _, note in noted))
+        properties["endTime"] = _moment(max(note["endtime"] for _, note in noted))
+    entities = [crate.dereference(place.as_posix()) for place in results.values()]
+    actions = [crate.add_action(workflow, "#run", result=entities, properties=properties)]
     tools = {}
     for path, note in noted:
         if (rule := note["rule"]) not in tools:
             tool = {"@type": "SoftwareApplication", "name": f"rule {rule}", "url": workflow.id}
             tool["version"] = recalib.__version__
-            tools[rule] = its.add(ContextEntity(its, f"#rule-{rule}", tool))
+            tools[rule] = crate.add(ContextEntity(crate, f"#rule-{rule}", tool))
         read = [results.get(Path(name), Path(name)).as_posix() for name in note["input"]]
-        job = its.add_action(
+        job = crate.add_action(
             tools[rule],
             f"#job-{path.as_posix()}",
-            object=[entity for name in read if (entity := its.dereference(name))],
-            result=its.dereference(results[path].as_posix()),
+            object=[entity for name in read if (entity := crate.dereference(name))],
+            result=crate.dereference(results[path].as_posix()),
             properties={
                 "name": f"{rule}: {path.as_posix()}",
                 "startTime": _moment(note["starttime"]),
@@ -153,9 +156,9 @@ def _add_run(
             },
         )
         actions.append(job)
-    its.root_dataset["mentions"] = actions
+    crate.root_dataset["mentions"] = actions
     last = max((note["endtime"] for _, note in noted), default=0)
-    its.datePublished = datetime.fromtimestamp(last, UTC)
+    crate.datePublished = datetime.fromtimestamp(last, UTC)
 
 
 def pack(archive: Path) -> None:
@@ -163,19 +166,19 @@ def pack(archive: Path) -> None:
     citation = yaml.safe_load(Path("CITATION.cff").read_text(encoding="utf-8"))
     with whole(RESULTS / "SHA256SUMS") as path:
         path.write_text(checksums(), encoding="utf-8")
-    its, top = crate(citation), f"recalib-{recalib.__version__}"
+    crate, top = crate_of(citation), f"recalib-{recalib.__version__}"
     with whole(archive) as path, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
-        text = json.dumps(its.metadata.generate(), indent=1) + "\n"
+        text = json.dumps(crate.metadata.generate(), indent=1) + "\n"
         _put(file, f"{top}/ro-crate-metadata.json", text.encode())
-        for entity in its.data_entities:
+        for entity in crate.data_entities:
             if getattr(entity, "source", None):
                 _put(file, f"{top}/{entity.id}", Path(entity.source).read_bytes())
 
 
 def _put(file: zipfile.ZipFile, name: str, content: bytes) -> None:
-    about = zipfile.ZipInfo(name, MOMENT)
-    about.compress_type, about.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
-    file.writestr(about, content)
+    info = zipfile.ZipInfo(name, MOMENT)
+    info.compress_type, info.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+    file.writestr(info, content)
 
 
 if __name__ == "__main__":

@@ -26,7 +26,8 @@ class Choice(NamedTuple):
 def read_choices(path: Path) -> dict[str, Choice]:
     """The keys of a configuration that have a comment, by their paths."""
     text = path.read_text(encoding="utf-8")
-    return {its.name: its for its in _choices(yaml.compose(text), "", text) if its.reason}
+    choices = _choices(yaml.compose(text), "", text)
+    return {choice.name: choice for choice in choices if choice.reason}
 
 
 def alternatives(factors: Factors, choices: Mapping[str, Choice]) -> list[Choice]:

@@ -151,8 +151,8 @@ class Contents:
     def _judged(self, claim: Claim, finding: Finding | None) -> Judged:
         numbers = {}
         if isinstance(claim, OfSetups):
-            numbers = {(claim.name, claim.system): claim.estimand, **claim.beside}
-        shares = frozenset(key for key, its in numbers.items() if isinstance(its, Remaining))
+            numbers = {(claim.name, claim.system): claim.estimand, **claim.secondary}
+        shares = frozenset(key for key in numbers if isinstance(numbers[key], Remaining))
         needs = "" if finding else self._needs(claim)
         earlier = None if finding else self._earlier.get(claim.statement.id)
         so_far = None if finding else self._so_far(claim)
@@ -175,7 +175,7 @@ class Contents:
             return None
         mean, least, most = np.exp([setups.mean(), setups.min(), setups.max()])
         bounds = {1: "at least", -1: "at most"}
-        bound = next((bounds[its] for its in values.bounds.to_numpy().flat if its), None)
+        bound = next((bounds[sign] for sign in values.bounds.to_numpy().flat if sign), None)
         return Number(
             name=claim.name, system=claim.system, value=mean, interval=(least, most), bound=bound
         )
@@ -200,21 +200,20 @@ class Contents:
     def verdicts(self) -> dict[str, list[Judged]]:
         """The claims by their verdicts; those that were not measured come last."""
         found: dict[str, list[Judged]] = {name: [] for name in map(str, Verdict)}
-        for its in self.claims.values():
-            found.setdefault(str(its.finding.verdict) if its.finding else NOT_MEASURED, []).append(
-                its
-            )
-        return {name: its for name, its in found.items() if its}
+        for claim in self.claims.values():
+            verdict = str(claim.finding.verdict) if claim.finding else NOT_MEASURED
+            found.setdefault(verdict, []).append(claim)
+        return {name: claims for name, claims in found.items() if claims}
 
     @cached_property
     def setups(self) -> int:
         """Setups of the campaign in which every variant has been measured."""
-        every = {name for name, its in variants(self.study).items() if its.lengths}
+        names = {name for name, variant in variants(self.study).items() if variant.lengths}
         try:
             measured = self.evidence.outcomes().groupby("setup")["variant"].agg(set)
         except NotMeasured:
             return 0
-        return int(measured.map(every.issubset).sum())
+        return int(measured.map(names.issubset).sum())
 
     fewest = FEWEST  # setups from which verdicts may follow
 
@@ -229,8 +228,9 @@ class Contents:
         table = self.evidence.table("summary.csv").set_index(
             ["robot", "scenario", "learner", "iterations"]
         )
-        its = self.study
-        return table.loc[its.robot, its.scenario, IMPROVED, its.experiments.iterations].to_dict()
+        study = self.study
+        iterations = study.experiments.iterations
+        return table.loc[study.robot, study.scenario, IMPROVED, iterations].to_dict()
 
     @cached_property
     def errors(self) -> list[dict[str, str]]:
@@ -307,10 +307,12 @@ def _named(name: str) -> str:
 def _pair(row: Mapping[str, Any], moment: str) -> str:
     """Both errors of a row of the summary, before or after learning."""
     errors = (row[f"{moment}_{error}"] for error in ERRORS)
-    return ", ".join(f"{short(its)} {unit}" for its, unit in zip(errors, UNITS, strict=True))
+    return ", ".join(f"{short(value)} {unit}" for value, unit in zip(errors, UNITS, strict=True))
 
 
 def _words(entry: Mapping[str, Any]) -> str:
     """A damage in the words of the configuration."""
-    texts = {key: " ".join(its) if isinstance(its, list) else its for key, its in entry.items()}
-    return ", ".join(f"{key} {text}" for key, text in texts.items())
+    return ", ".join(
+        f"{key} {' '.join(value) if isinstance(value, list) else value}"
+        for key, value in entry.items()
+    )

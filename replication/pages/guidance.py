@@ -63,20 +63,20 @@ class Benchmark:
     @property
     def worse(self) -> list[Worse]:
         """Comparisons in which another learner of today is better than the hybrid."""
-        its = self.errors
-        counted = its["moves"].isin([budget for budget in self.budgets if budget >= FIRST])
-        others = its[counted & its["learner"].isin({*peers()} - {HYBRID})]
-        own = its[counted & (its["learner"] == HYBRID)]
-        found = []
-        for row in own.to_dict("records"):
+        errors = self.errors
+        counted = errors["moves"].isin([budget for budget in self.budgets if budget >= FIRST])
+        others = errors[counted & errors["learner"].isin({*peers()} - {HYBRID})]
+        hybrid = errors[counted & (errors["learner"] == HYBRID)]
+        comparisons = []
+        for row in hybrid.to_dict("records"):
             same = (others["scenario"] == row["scenario"]) & (others["moves"] == row["moves"])
             for error, kind in zip(ERRORS, KINDS, strict=True):
                 best = others[same][error].min()
                 if row[error] > max(WORSE * best, NEGLIGIBLE):
-                    found.append(
+                    comparisons.append(
                         Worse(words(row["scenario"]), row["moves"], kind, row[error] / best)
                     )
-        return found
+        return comparisons
 
 
 def words(scenario: str) -> str:
@@ -117,6 +117,6 @@ def ends_on_twin(table: pd.DataFrame) -> Table:
     """Of each learner on the twin, the number of its moves and its last error [mm]."""
     last = table[table["twin"]].sort_values("poses").groupby("learner", sort=False).last()
     return {
-        label_of(str(learner)): [short(its["poses"]), f"{its['position_error_mm']:.3f}"]
-        for learner, its in last.iterrows()
+        label_of(str(learner)): [short(row["poses"]), f"{row['position_error_mm']:.3f}"]
+        for learner, row in last.iterrows()
     }

@@ -71,12 +71,12 @@ def _elsewhere(project: Path) -> dict[str, dict[str, Any]]:
     return {
         "CITATION.cff": {
             "version": citation["version"],
-            "authors": [_name(its) for its in citation["authors"]],
+            "authors": [_name(author) for author in citation["authors"]],
             "repository": citation.get("repository-code", ""),
         },
         ".zenodo.json": {
             "version": zenodo["version"],
-            "authors": [_name(its) for its in zenodo["creators"]],
+            "authors": [_name(author) for author in zenodo["creators"]],
         },
     }
 

@@ -60,7 +60,7 @@ def render(page: str, contents: Contents) -> str:
         finalize=_escaped if typeset else None,
     )
     environment.filters["quoted"] = _quoted
-    environment.globals |= {name: its for name, its in vars(formats).items() if callable(its)}
+    environment.globals |= {name: form for name, form in vars(formats).items() if callable(form)}
     environment.globals["Figure"] = Figure
     environment.globals |= {"on_real_arm": guidance.on_real_arm, "ends": guidance.ends_on_twin}
     return environment.get_template(f"{page}.j2").render(results=contents, study=contents.study)

@@ -25,16 +25,17 @@ REAL = "position_error_mm"
 def benchmark(evidence: Evidence) -> Figure:
     """Position errors against robot moves, for every learner in two scenarios."""
     table = evidence.table("benchmark.csv")
-    there = [*table["scenario"].unique()]
-    shown = SHOWN if {*SHOWN} <= {*there} else {its: fill(words(its), LINE) for its in there[:2]}
+    scenarios = [*table["scenario"].unique()]
+    titles = {scenario: fill(words(scenario), LINE) for scenario in scenarios[:2]}
+    shown = SHOWN if {*SHOWN} <= {*scenarios} else titles
     learners = styles_of(table["learner"])
     figure, panels = plt.subplots(
         1, len(shown), sharex=True, sharey=True, squeeze=False, figsize=(WIDTH, 3.4)
     )
     for axes, (scenario, name) in zip(panels[0], shown.items(), strict=True):
         for learner, style in learners.items():
-            own = table[(table["scenario"] == scenario) & (table["learner"] == learner)]
-            _draw(axes, own["moves"], own, BOTH[0].column, style, learner == UNDER)
+            results = table[(table["scenario"] == scenario) & (table["learner"] == learner)]
+            _draw(axes, results["moves"], results, BOTH[0].column, style, learner == UNDER)
         axes.set_title(name)
         axes.set_xlabel("robot moves")
         logarithmic(axes.xaxis, 1, 100, 10_000)
@@ -50,16 +51,16 @@ def real_arm(evidence: Evidence) -> Figure:
     table, published = evidence.table("real.csv"), evidence.study.real.published.after_mm
     figure, axes = plt.subplots(figsize=(WIDTH, 3.8))
     styles = styles_of(table["learner"])
-    for (learner, twin), own in table.groupby(["learner", "twin"], sort=False):
+    for (learner, twin), results in table.groupby(["learner", "twin"], sort=False):
         # no line where nothing was measured in between
-        pieces = (own["poses"].pct_change() > FAR).cumsum()
-        for number, piece in own.groupby(pieces):
+        pieces = (results["poses"].pct_change() > FAR).cumsum()
+        for number, piece in results.groupby(pieces):
             label = styles[learner].label + (" on a twin" if twin else "")
             shown = None if number else label
             _draw(axes, piece["poses"], piece, REAL, styles[learner], learner == UNDER, shown)
     axes.axhline(published, **BORDER)
-    its = {"va": "top", "ha": "right", "color": GREY}
-    note(axes, f"published: {published:.2g} mm", (table["poses"].max(), published), (0, -2), **its)
+    font = {"va": "top", "ha": "right", "color": GREY}
+    note(axes, f"published: {published:.2g} mm", (table["poses"].max(), published), (0, -2), **font)
     axes.set_xlabel("recorded poses, or moves on the twin")
     axes.set_ylabel("mean position error [mm]")
     logarithmic(axes.xaxis, 5, 20, 100, 500, 2000, 20_000)

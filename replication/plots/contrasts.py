@@ -70,11 +70,11 @@ def rows(evidence: Evidence) -> list[Row]:
     """All claims that setups decide by errors, in the paper's order."""
     findings = evidence.findings()
     return [
-        Row(its, findings[its.statement.id], np.exp(its.values(evidence).model().numbers))
-        for its in claims(evidence.study)
-        if isinstance(its, OfSetups)
-        and not isinstance(its.estimand, Crossing)
-        and its.statement.id in findings
+        Row(claim, findings[claim.statement.id], np.exp(claim.values(evidence).model().numbers))
+        for claim in claims(evidence.study)
+        if isinstance(claim, OfSetups)
+        and not isinstance(claim.estimand, Crossing)
+        and claim.statement.id in findings
     ]
 
 
@@ -82,37 +82,37 @@ def contrasts(evidence: Evidence) -> Figure:
     """The number of each claim in all setups; above: ratios of errors, below: remaining errors."""
     shown = rows(evidence)
     parts = [[row for row in shown if row.is_share is share] for share in (False, True)]
-    counts = [len(its) for its in parts]
+    counts = [len(part) for part in parts]
     figure, panels = plt.subplots(
         2, 1, figsize=(WIDTH, ROW * sum(counts) + 0.9), height_ratios=counts
     )
     labels = "error ratio", "larger remaining share"
-    for axes, its, label in zip(panels, parts, labels, strict=True):
-        _draw(axes, its)
+    for axes, part, label in zip(panels, parts, labels, strict=True):
+        _draw(axes, part)
         axes.set_xlabel(label)
     return figure
 
 
-def _draw(axes: Axes, its: list[Row]) -> None:
-    heights = range(len(its) - 1, -1, -1)
-    low, high = _ends(its)
-    for height, row in zip(heights, its, strict=True):
+def _draw(axes: Axes, part: list[Row]) -> None:
+    heights = range(len(part) - 1, -1, -1)
+    low, high = _ends(part)
+    for height, row in zip(heights, part, strict=True):
         _draw_row(axes, height, row, (low, high))
-    name_rows(axes, heights, [LABELS.get(row.claim.statement.id, row.claim.name) for row in its])
-    beside = name_right(axes, heights, [row.result for row in its])
-    for label, row in zip(beside.get_yticklabels(), its, strict=True):
+    name_rows(axes, heights, [LABELS.get(row.claim.statement.id, row.claim.name) for row in part])
+    results = name_right(axes, heights, [row.result for row in part])
+    for label, row in zip(results.get_yticklabels(), part, strict=True):
         if row.finding.verdict in (Verdict.SUPPORTED, Verdict.CONTRADICTED):
             label.set_fontweight("bold")
     logarithmic(axes.xaxis, *(tick for tick in TICKS if low < tick < high))
-    axes.set(xlim=(low, high), ylim=(-0.5, len(its) - 0.5))
+    axes.set(xlim=(low, high), ylim=(-0.5, len(part) - 0.5))
 
 
-def _ends(its: list[Row]) -> tuple[float, float]:
+def _ends(part: list[Row]) -> tuple[float, float]:
     """Between which everything lies."""
-    every = np.concatenate(
-        [[*row.numbers, *(row.finding.estimates[0].predictive_interval or ())] for row in its]
+    numbers = np.concatenate(
+        [[*row.numbers, *(row.finding.estimates[0].predictive_interval or ())] for row in part]
     )
-    return float(every.min() / MARGIN), float(every.max() * MARGIN)
+    return float(numbers.min() / MARGIN), float(numbers.max() * MARGIN)
 
 
 def _draw_row(axes: Axes, height: float, row: Row, ends: tuple[float, float]) -> None:

@@ -122,7 +122,7 @@ def figures_of(study: Study) -> list[str]:
         Figure.MAPPING: not evidence,
         Figure.AMOUNTS: not evidence,
     }
-    return [its.file for its in Figure if its not in APART and not lacking.get(its)]
+    return [figure.file for figure in Figure if figure not in APART and not lacking.get(figure)]
 
 
 def _setups(study: Study) -> set[str]:

@@ -24,7 +24,7 @@ from replication.plots.style import (
 from replication.training.measured import ERRORS
 from replication.training.plan import Place, leading, places
 
-NEAR = 1.4  # times: two numbers beside an axis that would stand on each other
+NEAR = 1.4  # times: two numbers next to an axis that would stand on each other
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 MOVES = "iterations (two moves each)"
 
@@ -58,14 +58,14 @@ def _draw_band(axes: Axes, table: pd.DataFrame, color: str) -> None:
 
 def _label_ends(axes: Axes, means: pd.DataFrame, row: int, aside: float) -> None:
     """Both errors at the beginning or at the end, one above the other."""
-    both = means.iloc[row]
-    close = both.max() < NEAR * both.min()
+    errors = means.iloc[row]
+    close = errors.max() < NEAR * errors.min()
     for error in BOTH:
-        shift = (5 if both[error.column] == both.max() else -5) if close else 0
+        shift = (5 if errors[error.column] == errors.max() else -5) if close else 0
         note(
             axes,
-            f"{both[error.column]:.{2 if row else 1}f} {error.unit}",
-            (means.index[row], both[error.column]),
+            f"{errors[error.column]:.{2 if row else 1}f} {error.unit}",
+            (means.index[row], errors[error.column]),
             (aside, shift),
             va="center",
             color=error.color,
@@ -74,19 +74,19 @@ def _label_ends(axes: Axes, means: pd.DataFrame, row: int, aside: float) -> None
 
 def learners(evidence: Evidence) -> Figure:
     """All learners in the scenario of Figure 1, on logarithmic axes."""
-    its, lengths = leading(evidence.study), evidence.study.experiments.learners
+    training, lengths = leading(evidence.study), evidence.study.experiments.learners
     styles = styles_of_trainings(
         (learner, iterations) for learner in lengths for iterations in lengths[learner]
     )
     figure, panels = plt.subplots(1, 2, sharex=True, figsize=(WIDTH, 3.1))
     for axes, error in zip(panels, BOTH, strict=True):
         for (learner, iterations), style in styles.items():
-            table = curves(evidence.history(learner, iterations, its.scenario), error)
+            table = curves(evidence.history(learner, iterations, training.scenario), error)
             table = table[table.index > 0]
             _draw_band(axes, table, style.color)
             axes.plot(table.index, table.mean(axis=1), label=style.label, **style.line())
-        final = curves(evidence.history(*its), error).iloc[-1].mean()
-        color = styles[its.learner, its.iterations].color
+        final = curves(evidence.history(*training), error).iloc[-1].mean()
+        color = styles[training.learner, training.iterations].color
         axes.axhline(final, color=color, linewidth=0.8)
         note(
             axes,
@@ -107,7 +107,8 @@ def learners(evidence: Evidence) -> Figure:
 def scenarios(evidence: Evidence) -> Figure:
     """Both errors before and after learning in every scenario, and on every robot."""
     own = evidence.study.experiments.learners
-    trained = [its for its, names in places(evidence.study).items() if own.keys() <= names.keys()]
+    planned = places(evidence.study)
+    trained = [place for place in planned if own.keys() <= planned[place].keys()]
     rows = np.arange(len(trained))[::-1]
     styles = styles_of_trainings((name, length) for name in own for length in own[name])
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(WIDTH, 1.4 + 0.34 * len(rows)))
@@ -161,9 +162,9 @@ def amounts(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 2, figsize=(WIDTH, 2.6))
     for axes, error in zip(panels, BOTH, strict=True):
         for moment, color, marker in (("initial", GREY, "^"), ("final", error.color, error.marker)):
-            its = by_size[f"{moment}_{error.column}"]
+            errors = by_size[f"{moment}_{error.column}"]
             low, middle, high = (
-                its.quantile(share) for share in (BAND[0] / 100, 0.5, BAND[1] / 100)
+                errors.quantile(share) for share in (BAND[0] / 100, 0.5, BAND[1] / 100)
             )
             band(axes, middle.index, (low, high), color)
             axes.plot(middle.index, middle, color=color, marker=marker)

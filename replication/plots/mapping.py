@@ -38,11 +38,13 @@ def mapping(evidence: Evidence) -> Figure:
 def _assignments(axes: Axes, evidence: Evidence) -> None:
     """The initial errors of every assignment of the paper's damage to the study's robot."""
     table = evidence.assignments()
-    both = table[list(ERRORS)].to_numpy()
-    axes.scatter(both[:, 0], both[:, 1], s=2, alpha=0.3, color="0.5", linewidths=0, rasterized=True)
-    used = both[table["distance"].round(TIE).argmin()]
-    its = evidence.study.paper_damage.published
-    published = its.position_error_cm, its.orientation_error_deg
+    errors = table[list(ERRORS)].to_numpy()
+    axes.scatter(
+        errors[:, 0], errors[:, 1], s=2, alpha=0.3, color="0.5", linewidths=0, rasterized=True
+    )
+    used = errors[table["distance"].round(TIE).argmin()]
+    paper = evidence.study.paper_damage.published
+    published = paper.position_error_cm, paper.orientation_error_deg
     axes.scatter([used[0]], [used[1]], 2 * MARK, facecolors="none", edgecolors=NEUTRAL, zorder=3)
     axes.scatter(published[:1], published[1:], 2 * MARK, NEUTRAL, marker="+", zorder=4)
     axes.annotate(
@@ -73,8 +75,8 @@ def _coupling(axes: Axes, evidence: Evidence) -> None:
     axes.set_title("coupling")
     for error, place in zip(BOTH, ("left", "right"), strict=True):
         at = (float(place == "right"), 1)
-        its = {"ha": place, "va": "top", "color": error.color}
-        note(axes, error.kind, at, (0, 0), xycoords="axes fraction", **its)
+        font = {"ha": place, "va": "top", "color": error.color}
+        note(axes, error.kind, at, (0, 0), xycoords="axes fraction", **font)
 
 
 def _propagation(axes: Axes, evidence: Evidence) -> None:

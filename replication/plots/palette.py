@@ -50,7 +50,7 @@ BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS)
 HOLDS, FAILS = "#44AA99", "#580644"
 NEUTRAL = "black"
 INK = "0.25"  # of pictures of ideas
-GREY = "0.4"  # words and lines beside the data
+GREY = "0.4"  # words and lines next to the data
 BORDER: dict[str, Any] = {"color": GREY, "linewidth": 0.8}  # parts one side from the other
 # After Okabe and Ito's palette, whose pink, green, orange and grey some take for each other; in the
 # order of the learners. Later ones look as those nobody foresaw.
@@ -85,13 +85,13 @@ def styles_of(learners: Iterable[str]) -> dict[str, Style]:
 
 def styles_of_trainings(trainings: Iterable[Training]) -> dict[Training, Style]:
     """How trainings are shown: a learner's longest one as the learner, shorter ones paler."""
-    every = sorted(trainings)
-    longest, unknown = dict(every), cycle(reversed(UNKNOWN))
-    known, found = styles_of(longest), {}
-    for name, length in every:
-        style = replace(known[name], label=f"{known[name].label}, {length:,} iterations")
+    ordered = sorted(trainings)
+    longest, unknown = dict(ordered), cycle(reversed(UNKNOWN))
+    by_learner, styles = styles_of(longest), {}
+    for name, length in ordered:
+        style = replace(by_learner[name], label=f"{by_learner[name].label}, {length:,} iterations")
         if length < longest[name]:
             color, marker = SHORTER.get(name) or next(unknown)
             style = replace(style, color=color, marker=marker, linestyle=DOTTED)
-        found[name, length] = style
-    return found
+        styles[name, length] = style
+    return styles

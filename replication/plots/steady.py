@@ -21,7 +21,7 @@ from matplotlib.transforms import Transform
 from numpy.typing import ArrayLike
 
 LOG = "rounded log"  # the scale of logarithmic axes
-DIGITS = 4  # that are seen
+DIGITS = 4  # that are legible
 BORDER = 0.4567  # where values begin to be rounded up, less than one half
 
 

@@ -79,16 +79,16 @@ def _draw_errors(axes: Axes, rows: pd.DataFrame, style: Style) -> None:
 def _draw_published(iterations: float, above: Axes, below: Axes) -> None:
     for axes in (above, below):
         axes.axvline(iterations, linestyle=(0, (4, 3)), **BORDER)
-    where = iterations, 1
-    its = {"xycoords": ("data", "axes fraction"), "va": "top", "color": GREY}
-    note(above, f"the paper:\n{PUBLISHED}×", where, (3, 0), **its)
+    at = iterations, 1
+    font = {"xycoords": ("data", "axes fraction"), "va": "top", "color": GREY}
+    note(above, f"the paper:\n{PUBLISHED}×", at, (3, 0), **font)
 
 
 def _needed(values: Values, own: int) -> tuple[np.ndarray, int]:
     """Iterations (replicate,), and whether they are a bound."""
     factors = values.table.to_numpy().ravel()
-    known = np.isfinite(factors)
-    return own * np.exp(factors[known]), int(np.sign(values.bounds.to_numpy().sum()))
+    finite = np.isfinite(factors)
+    return own * np.exp(factors[finite]), int(np.sign(values.bounds.to_numpy().sum()))
 
 
 def _in_words(needed: float, own: int, bound: int = 0) -> str:
@@ -100,14 +100,14 @@ def _in_words(needed: float, own: int, bound: int = 0) -> str:
 
 def _draw_setups(axes: Axes, setups: Values, own: int) -> float:
     """Iterations in all setups, and where one more study would lie. Returns their mean."""
-    its: Model = setups.model()
+    model: Model = setups.model()
     beyond = (setups.bounds.max(axis=1) > 0).to_numpy()
     heights = 0.15 + spread(len(beyond))
-    for those, marker in ((~beyond, "."), (beyond, ">")):
-        iterations, color = own * np.exp(its.numbers[those]), STEPS[DOUBLE].color
-        axes.scatter(iterations, heights[those], s=16, marker=marker, color=color, lw=0)
-    mean, low, high = own * np.exp(its.mean)
-    axes.hlines(-0.3, *(own * np.exp(its.another[1:])), color=NEUTRAL, linewidth=0.8)
+    for mask, marker in ((~beyond, "."), (beyond, ">")):
+        iterations, color = own * np.exp(model.numbers[mask]), STEPS[DOUBLE].color
+        axes.scatter(iterations, heights[mask], s=16, marker=marker, color=color, lw=0)
+    mean, low, high = own * np.exp(model.mean)
+    axes.hlines(-0.3, *(own * np.exp(model.another[1:])), color=NEUTRAL, linewidth=0.8)
     axes.hlines(-0.3, low, high, color=NEUTRAL, linewidth=3)
     axes.scatter(mean, -0.3, s=MARK, marker="D", color=NEUTRAL, zorder=3)
     return float(mean)

@@ -93,11 +93,11 @@ def name_rows(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> None:
 
 def name_right(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> SecondaryAxis:
     """Words to the right of what stands in rows at these heights; returns their axes."""
-    beside = axes.secondary_yaxis("right")
-    beside.set_yticks(heights, list(names))
-    beside.tick_params(length=0)
-    beside.spines["right"].set_visible(False)
-    return beside
+    right = axes.secondary_yaxis("right")
+    right.set_yticks(heights, list(names))
+    right.tick_params(length=0)
+    right.spines["right"].set_visible(False)
+    return right
 
 
 def spread(count: int) -> np.ndarray:

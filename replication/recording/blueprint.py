@@ -30,9 +30,9 @@ def arrange(watched: Watched, sight: Sight) -> rrb.Blueprint:
     )
     # the text on the left, because the viewer's notices pop up on the right
     text = rrb.TextDocumentView(origin="about", name="what you see")
-    beside = rrb.Vertical(text, *_plots(watched), row_shares=[12, 8, 8])
+    left = rrb.Vertical(text, *_plots(watched), row_shares=[12, 8, 8])
     return rrb.Blueprint(
-        rrb.Horizontal(beside, arm, column_shares=[3, 5], name="the arm before and after"),
+        rrb.Horizontal(left, arm, column_shares=[3, 5], name="the arm before and after"),
         rrb.TimePanel(
             state="collapsed",
             timeline=CLOCK,

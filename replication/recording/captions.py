@@ -15,7 +15,7 @@ PARTS = "link", "joint", "encoder"  # keys of what a damage is at
 PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
-def about(resolved: Resolved, watched: Watched) -> str:
+def description(resolved: Resolved, watched: Watched) -> str:
     """The text next to the arm, in Markdown."""
     damages = damages_among(resolved.damages)
     disturbances = [entry for entry in resolved.damages if entry not in damages]
@@ -44,20 +44,20 @@ def about(resolved: Resolved, watched: Watched) -> str:
 def in_words(entry: Entry) -> str:
     """A damage or disturbance: where it is, what it is, and by how much."""
     words = {
-        key: ", ".join(its) if isinstance(its, list) else its
-        for key, its in describe(entry).items()
+        key: ", ".join(value) if isinstance(value, list) else value
+        for key, value in describe(entry).items()
         if key not in PARTS
     }
-    said = [f"{key.replace('_', ' ')} {value}" for key, value in words.items()]
+    phrases = [f"{key.replace('_', ' ')} {value}" for key, value in words.items()]
     match entry:
         case LinkShortening():
-            said[0] = f"{words['shorten']} short"
+            phrases[0] = f"{words['shorten']} short"
         case EncoderShift():
-            said[0] = f"encoder {words['shift']}"
+            phrases[0] = f"encoder {words['shift']}"
     if part := link_of(entry) or joint_of(entry):
         name = part.removesuffix("_link").removesuffix("_joint").replace("_", " ")
-        return f"{name}: {', '.join(said)}"
-    return ", ".join(said)
+        return f"{name}: {', '.join(phrases)}"
+    return ", ".join(phrases)
 
 
 def legend(resolved: Resolved) -> dict[str, colours.Colour]:
@@ -77,10 +77,10 @@ def _errors(watched: Watched) -> list[str]:
 
 def progress(resolved: Resolved, watched: Watched) -> list[str]:
     """The caption at each measurement: the first and the last one stand while poses are visited."""
-    what = "recalibration" if damages_among(resolved.damages) else "learning"
-    when = [f"after {done} iterations" for done in watched.history.iterations]
-    when[0], when[-1] = f"before {what}", f"after {what}"
-    pairs = zip(when, _errors(watched), strict=True)
+    stage = "recalibration" if damages_among(resolved.damages) else "learning"
+    moments = [f"after {iterations} iterations" for iterations in watched.history.iterations]
+    moments[0], moments[-1] = f"before {stage}", f"after {stage}"
+    pairs = zip(moments, _errors(watched), strict=True)
     return [f"{words}: mean errors {errors}" for words, errors in pairs]
 
 

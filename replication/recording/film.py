@@ -35,7 +35,7 @@ class _Patient:
 
     def __getattr__(self, method: str) -> Callable[..., Any]:
         ask = getattr(self._client, method)
-        return lambda *its, **named: answer(self._process, partial(ask, *its, **named))
+        return lambda *arguments, **named: answer(self._process, partial(ask, *arguments, **named))
 
 
 def take_film(recording: Path, film: Path) -> None:
@@ -63,7 +63,7 @@ def _frames(recording: Path) -> np.ndarray:
     """The frames of the recording that are shown."""
     chunks = RrdReader(recording).store().stream().to_chunks()
     batches = [chunk.to_record_batch() for chunk in chunks]
-    numbers = [its[CLOCK].to_pylist() for its in batches if CLOCK in its.schema.names]
+    numbers = [batch[CLOCK].to_pylist() for batch in batches if CLOCK in batch.schema.names]
     first, last = min(map(min, numbers)), max(map(max, numbers))
     visits = np.arange(max(first, -SHOWN), 0, STEP)
     # the last frame of learning: its number is one of iterations, and the arm rests there, too

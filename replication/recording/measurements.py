@@ -25,19 +25,19 @@ def send_landings(scene: Scene) -> None:
     _, rows = scene.motion.measurements()
     achieved, poses = watched.achieved[rows], len(watched.desired)
     desired = np.broadcast_to(watched.desired, achieved.shape)
-    reached, meant = (
+    reached, goals = (
         axes_of(frames.reshape(-1, 4, 4), AXIS * unit) for frames in (achieved, desired)
     )
-    misses = np.stack([meant[::3, 0], reached[::3, 0]], axis=1)  # from origin to origin
-    tips = np.stack([meant[:, 1], reached[:, 1]], axis=1)
+    misses = np.stack([goals[::3, 0], reached[::3, 0]], axis=1)  # from origin to origin
+    tips = np.stack([goals[:, 1], reached[:, 1]], axis=1)
     for part, strips, apart, widest in (
         ("reached", reached, tips, 0.01 * unit),
         ("miss", misses, misses, 0.03 * unit),
     ):
         far = np.linalg.norm(apart[:, 1] - apart[:, 0], axis=-1)
         lines = rr.LineStrips3D.columns(strips=strips, radii=np.minimum(far / 4, widest))
-        each = poses * len(strips) // len(misses)
-        scene.show(part, lines, each, rr.LineStrips3D.from_fields(colors=REACHED))
+        count = poses * len(strips) // len(misses)
+        scene.show(part, lines, count, rr.LineStrips3D.from_fields(colors=REACHED))
 
 
 def send_map(scene: Scene) -> None:

@@ -63,23 +63,23 @@ def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray) -> Motion
     departures = VISIT * np.arange(len(before))
     starts = np.array([[-VISIT * len(before)], [iterations[-1] + 1]])
     visits = starts + np.arange(VISIT * len(before))
-    done = np.minimum(np.arange(VISIT) / (VISIT / 2), 1)
+    progress = np.minimum(np.arange(VISIT) / (VISIT / 2), 1)
     return Motion(
         frames=np.concatenate([visits[0], iterations, visits[1]]),
         angles=np.concatenate(
-            [_visits(home, before, done), angles[:, -1], _visits(after[-1], after, done)]
+            [_visits(home, before, progress), angles[:, -1], _visits(after[-1], after, progress)]
         ),
         departures=starts + departures,
         iterations=iterations,
     )
 
 
-def _visits(start: np.ndarray, stops: np.ndarray, done: np.ndarray) -> np.ndarray:
+def _visits(start: np.ndarray, stops: np.ndarray, progress: np.ndarray) -> np.ndarray:
     """Angles (stop x frame, joint) of smooth moves from `start` from stop to stop (stop, joint).
 
     Args:
         done: (frame,) of each way, in [0, 1], if the arm moved evenly.
     """
-    eased = (done**2 * (3 - 2 * done))[:, None]  # at rest at both ends
+    eased = (progress**2 * (3 - 2 * progress))[:, None]  # at rest at both ends
     starts = np.concatenate([start[None], stops[:-1]])[:, None]
     return (starts + eased * (stops[:, None] - starts)).reshape(-1, stops.shape[-1])

@@ -71,12 +71,12 @@ def unit_of(workspace: Workspace) -> float:
 
 
 def log_surroundings(
-    rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, about: str
+    rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, description: str
 ) -> None:
     """The text, the workspace's box and the desired poses (pose, 4, 4)."""
     unit = unit_of(workspace)
     rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-    rec.log("about", rr.TextDocument(about, media_type="text/markdown"), static=True)
+    rec.log("about", rr.TextDocument(description, media_type="text/markdown"), static=True)
     box = rr.Boxes3D(
         centers=[workspace.centre[:3, 3]],
         half_sizes=[workspace.half_ranges[POSITION]],

@@ -20,17 +20,17 @@ OTHERS = "studies"  # below the shipped study's folder lie those of the others
 
 def check_writable(folder: str) -> None:
     """Raise RecalibError where no file can be made; the folder itself need not be there yet."""
-    made = Path(folder).absolute()
-    there = made if made.exists() else made.parent
-    if not os.access(there, os.W_OK):
-        raise RecalibError(f"nothing can be written in {there}; try: a copy of the project")
+    path = Path(folder).absolute()
+    existing = path if path.exists() else path.parent
+    if not os.access(existing, os.W_OK):
+        raise RecalibError(f"nothing can be written in {existing}; try: a copy of the project")
 
 
 def check_known(folders: Iterable[str]) -> None:
     """Raise RecalibError for results whose notes were deleted, or left elsewhere."""
-    here = _read(NOTES)
+    identity = _read(NOTES)
     for folder in folders:
-        if _read(f"{folder}/{MARK}") not in ("", here):
+        if _read(f"{folder}/{MARK}") not in ("", identity):
             raise RecalibError(
                 f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can"
                 f" say whether it is up to date; try: remove {folder}, or, if nothing was changed"

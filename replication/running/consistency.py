@@ -61,7 +61,7 @@ def _names(study: Study) -> Iterator[Mistake]:
     """Names that do not exist, or that mean two things."""
     plan, benchmark, real = study.experiments, study.benchmark, study.real
     papers = list(study.every_learner)
-    found: tuple[tuple[dict[KeyPath, str], Iterable[str]], ...] = (
+    references: tuple[tuple[dict[KeyPath, str], Iterable[str]], ...] = (
         ({("real", "robot"): real.robot}, study.robots),
         (_places(("experiments", "robots"), plan.robots), study.robots),
         (_places(("campaign", "factors", "robot"), study.campaign.factors.robot), study.robots),
@@ -75,7 +75,7 @@ def _names(study: Study) -> Iterator[Mistake]:
         (_places(("real", "twin"), real.twin), papers),
         (_places(("real", "learners"), real.learners), peers()),
     )
-    for places, valid in found:
+    for places, valid in references:
         for path, name in places.items():
             if name not in valid:
                 yield unknown(path, name, valid)
@@ -96,10 +96,10 @@ def _meanings(study: Study) -> Iterator[Mistake]:
     if study.experiments.switches:
         for switch in SWITCHES:
             for name, valid in ((IMPROVED, switch.improved), (RITTER, switch.ritter)):
-                stood = getattr(study.learners[name], switch.key)
-                if stood != valid:
-                    when = "while experiments.switches is true"
-                    yield unlike(("learners", name, switch.key), stood, f"{valid} {when}")
+                value = getattr(study.learners[name], switch.key)
+                if value != valid:
+                    condition = "while experiments.switches is true"
+                    yield unlike(("learners", name, switch.key), value, f"{valid} {condition}")
 
 
 def _amounts(study: Study) -> Iterator[Mistake]:
@@ -164,16 +164,16 @@ def _evidence(study: Study) -> Iterator[Mistake]:
     """Scenarios that the claims take for what they are called."""
     if not study.experiments.evidence:
         return
-    when = "while experiments.evidence is true"
+    condition = "while experiments.evidence is true"
     if study.scenarios.get("intact"):
-        yield Mistake(("scenarios", "intact"), f" is damaged; expected: an empty list {when}")
+        yield Mistake(("scenarios", "intact"), f" is damaged; expected: an empty list {condition}")
     for name in RIGID:
         entries = study.scenarios.get(name, ())
         if name in study.scenarios and not any(map(_damages, entries)):
-            what = "moves nothing" if entries else "is an empty list"
-            yield Mistake(("scenarios", name), f" {what}; expected: damages {when}")
-    own = study.scenarios[study.scenario]
+            problem = "moves nothing" if entries else "is an empty list"
+            yield Mistake(("scenarios", name), f" {problem}; expected: damages {condition}")
+    damages = study.scenarios[study.scenario]
     for part in ("links", "encoders"):
-        if Assigned(assigned=part) not in own:
-            fault = f" has no assigned: {part}; expected: the paper's damage {when}"
+        if Assigned(assigned=part) not in damages:
+            fault = f" has no assigned: {part}; expected: the paper's damage {condition}"
             yield Mistake(("scenarios", study.scenario), fault)

@@ -15,12 +15,13 @@ from recalib.nominal.chain import TOLERANCE
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot, link_end
 from recalib.spelling import instead, listed
-from replication.config.damages import Assigned, describe
+from replication.config.damages import describe
 from replication.config.messages import KeyPath, Mistake, dotted, shown, unknown, unlike
 from replication.config.study import Study
 from replication.scenarios.assignments import Ways
-from replication.scenarios.nominal import nominal
+from replication.scenarios.nominal import nominal_of
 from replication.scenarios.plants import nominal_robot
+from replication.scenarios.resolving import has_part
 from replication.training.plan import places
 
 
@@ -32,35 +33,35 @@ def check_robots(study: Study) -> list[Mistake]:
     """
     used = list(places(study))
     robots: dict[str, Robot] = {}
-    found: list[Mistake] = []
+    mistakes: list[Mistake] = []
     for name, entry in study.robots.items():
         try:
-            robots[name] = nominal_robot(nominal(study, name))
+            robots[name] = nominal_robot(nominal_of(study, name))
         except RecalibError as error:
-            found.append(_of_robot(name, error))
+            mistakes.append(_of_robot(name, error))
         else:
-            found += list(_of_slides(robots[name])) or _of_links(robots[name], entry.links)
-    if found:
-        return found
+            mistakes += list(_of_slides(robots[name])) or _of_links(robots[name], entry.links)
+    if mistakes:
+        return mistakes
     assigned = []
     for name in dict.fromkeys(robot for robot, _ in used):
         try:
             Controller(robots[name], study.controller.greatest_condition)
         except RecalibError as error:
-            found.append(_of_robot(name, error))
+            mistakes.append(_of_robot(name, error))
             continue
-        its = [scenario for robot, scenario in used if robot == name]
-        for scenario in its:
-            found += _of_scenario(study, scenario, robots[name])
-        if any(isinstance(entry, Assigned) for own in its for entry in study.scenarios[own]):
+        scenarios = [scenario for robot, scenario in used if robot == name]
+        for scenario in scenarios:
+            mistakes += _of_scenario(study, scenario, robots[name])
+        if has_part(study, scenarios):
             assigned.append(robots[name])
-    if assigned and not found:
-        each = (list(_of_assignment(robot, study)) for robot in assigned)
-        found += next(filter(None, each), [])  # the others' would say the same again
-    if study.experiments.evidence and not found:
-        its_own = robots[study.robot]
-        found += list(_of_mapping(its_own)) or _of_ensemble(study, its_own)
-    return found
+    if assigned and not mistakes:
+        by_robot = (list(_of_assignment(robot, study)) for robot in assigned)
+        mistakes += next(filter(None, by_robot), [])  # the others' would say the same again
+    if study.experiments.evidence and not mistakes:
+        own = robots[study.robot]
+        mistakes += list(_of_mapping(own)) or _of_ensemble(study, own)
+    return mistakes
 
 
 def _of_robot(name: str, error: RecalibError) -> Mistake:
@@ -71,8 +72,8 @@ def _of_robot(name: str, error: RecalibError) -> Mistake:
             if key:
                 path = (key, error.name) if key in ("home", "limits") else (key,)
                 return unknown(("robots", name, *path), error.name, error.valid)
-            stood = f" is {shown(error.name)}, neither a file nor a URDF of example-robot-data"
-            return Mistake(("robots", name, "urdf"), f"{stood}; {instead(error.name, error.valid)}")
+            fault = f" is {shown(error.name)}, neither a file nor a URDF of example-robot-data"
+            return Mistake(("robots", name, "urdf"), f"{fault}; {instead(error.name, error.valid)}")
         case InvalidFile():
             return unlike(("robots", name, "urdf"), error.path, "a file that is there")
         case InvalidSetting(key="home"):
@@ -97,31 +98,32 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
     together do not even leave the middle of its workspace within reach.
     """
     lacking: dict[KeyPath, UnknownName] = {}
-    done: list[Damage] = []
+    damages: list[Damage] = []
     for index, entry in enumerate(study.scenarios[scenario]):
         if not isinstance(entry, Damage):
             continue
-        path, error, said = ("scenarios", scenario, index), _refused(robot, entry), describe(entry)
+        path = "scenarios", scenario, index
+        error, description = _refused(robot, entry), describe(entry)
         if isinstance(error, UnknownName):
-            lacking[(*path, next(iter(said)))] = error
+            lacking[(*path, next(iter(description)))] = error
             continue
-        done.append(entry)
-        amount = next(key for key in entry.amounts() if key in said)
+        damages.append(entry)
+        amount = next(key for key in entry.amounts() if key in description)
         if error:
-            yield unlike((*path, amount), said[amount], error.valid)
+            yield unlike((*path, amount), description[amount], error.valid)
             break
-        if not _reaches_middle(robot, done):
+        if not _reaches_middle(robot, damages):
             where = f"the middle of the workspace within reach of the {robot.name}"
-            yield unlike((*path, amount), said[amount], f"less, so that it leaves {where}")
+            yield unlike((*path, amount), description[amount], f"less, so that it leaves {where}")
             break
     if len(lacking) > 1:  # it is meant for another robot
-        names = listed(dict.fromkeys(its.name for its in lacking.values()), "and")
+        names = listed(dict.fromkeys(error.name for error in lacking.values()), "and")
         has = f"has {listed(next(iter(lacking.values())).valid, 'and')}"
-        asked = ("scenario",), ("experiments", "scenarios")
+        keys = ("scenario",), ("experiments", "scenarios")
         fault = f" is about {names}; the {robot.name} {has}"
-        yield Mistake(("scenarios", scenario), fault, asked)
+        yield Mistake(("scenarios", scenario), fault, keys)
     else:
-        yield from (unknown(where, its.name, its.valid) for where, its in lacking.items())
+        yield from (unknown(where, error.name, error.valid) for where, error in lacking.items())
 
 
 def _reaches_middle(robot: Robot, damages: Iterable[Damage]) -> bool:
@@ -152,18 +154,19 @@ def _of_assignment(robot: Robot, study: Study) -> Iterator[Mistake]:
     """Too few links or joints of a robot, or links that are too short, for the paper's damage."""
     damage, links = study.paper_damage, study.robots[robot.name].links
     own, home = ("robots", robot.name, "links"), ("robots", robot.name, "home")
-    for key, amounts, other, there in (
+    for key, amounts, other, available in (
         ("shorten", damage.shorten, own, links),
         ("shift", damage.shift, home, robot.joints),
     ):
-        if len(amounts) > len(there):
-            valid = f"at most {len(there)}, one for each of {dotted(other)}"
+        if len(amounts) > len(available):
+            valid = f"at most {len(available)}, one for each of {dotted(other)}"
             fault = f" is a list of {len(amounts)}; expected: {valid}"
             yield Mistake(("paper_damage", key), fault, (other,))
     arm, most = robot.arm, max(damage.shorten)
     ends = {link: link_end(arm.model, arm.tool, robot.links[link]) for link in links}
     lengths = {link: np.linalg.norm(end.translation) for link, end in ends.items()}
-    if short := [f"{link} {100 * its:.2f} cm" for link, its in lengths.items() if most >= its]:
+    short = [f"{link} {100 * length:.2f} cm" for link, length in lengths.items() if length <= most]
+    if short:
         path = "paper_damage", "shorten", damage.shorten.index(most)
         valid = f"less than links of the {robot.name} have: {listed(short, 'and')}"
         yield unlike(path, LENGTH.write(most), valid, own)
@@ -178,10 +181,10 @@ def _of_mapping(robot: Robot) -> Iterator[Mistake]:
 
 def _of_ensemble(study: Study, robot: Robot) -> Iterator[Mistake]:
     """More robots than there are assignments that leave something of every link."""
-    damage, its = study.paper_damage, study.experiments.ensemble
+    damage, plan = study.paper_damage, study.experiments.ensemble
     ways = Ways(study.robots[robot.name].links, damage.shorten, robot.joints, damage.shift)
-    refused = cache(lambda damage: _refused(robot, damage.scaled(max(its.scales))))
+    refused = cache(lambda damage: _refused(robot, damage.scaled(max(plan.scales))))
     most = sum(not any(map(refused, short)) for short in ways.short) * len(ways.shifted)
-    if its.draws > most:
+    if plan.draws > most:
         valid = f"at most {most}, for which the links are long enough"
-        yield unlike(("experiments", "ensemble", "draws"), its.draws, valid)
+        yield unlike(("experiments", "ensemble", "draws"), plan.draws, valid)

@@ -28,9 +28,9 @@ HOMES = {module.__name__: Path(module.__path__[0]) for module in (recalib, repli
 @cache
 def digest(layer: str) -> str:
     """Of the code of a layer and of those below it."""
-    its = hashlib.sha256()
+    hasher = hashlib.sha256()
     for name in LAYERS[: LAYERS.index(layer) + 1]:
         package, *folders = name.split(".")
         for path in sorted(HOMES[package].joinpath(*folders).rglob("*.py")):
-            its.update(path.read_bytes())
-    return its.hexdigest()
+            hasher.update(path.read_bytes())
+    return hasher.hexdigest()

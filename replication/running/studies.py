@@ -65,10 +65,10 @@ def study_of(
     Raises InvalidConfiguration; RecalibError: it is called as the shipped one, and is another one.
     """
     known = sorted((project / OTHERS).glob("*.yaml"))
-    layers = [[*layers_of(source, known)] for source in files]
-    begun = [layer for its in layers for layer in its[:-1]]
-    base = reduce(Placed.under, begun, placed(project / CONFIGURATION))
-    own = [its[-1] for its in layers] + ([from_mapping(_typed(changes))] if changes else [])
+    stacks = [[*layers_of(source, known)] for source in files]
+    parents = [layer for stack in stacks for layer in stack[:-1]]
+    base = reduce(Placed.under, parents, placed(project / CONFIGURATION))
+    own = [stack[-1] for stack in stacks] + ([from_mapping(_typed(changes))] if changes else [])
     inherited = base.content["scenarios"].content if "scenarios" in base.content else ()
     checks: list[Check] = [check, partial(named_files, project), partial(unused, [*inherited])]
     study = read_study(base, checks=checks)  # a mistake in it is none in what is laid over it
@@ -93,22 +93,22 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
 
     Raises InvalidConfiguration.
     """
-    its = placed(source)
-    if LIKE not in its.content:
-        return [its]
-    like = its.content[LIKE]
+    layer = placed(source)
+    if LIKE not in layer.content:
+        return [layer]
+    like = layer.content[LIKE]
     valid = {path.stem: path for path in known if path != source}  # it goes round in no circle
     match like.plain():
         case str(name) if name in valid:
             other = valid.pop(name)
         case str(name):
             raise _refused(like, unknown((LIKE,), name, valid))
-        case stood:
-            raise _refused(like, unlike((LIKE,), stood, f"one of {listed(valid, 'and')}"))
-    own = {"name": Path(str(its.place[0])).stem, "expected": None}
-    said = {key: value for key, value in its.content.items() if key != LIKE}
-    said = from_mapping(own, its.place[:1]).content | said
-    return [*layers_of(other, [*valid.values()]), Placed(said, its.place)]
+        case value:
+            raise _refused(like, unlike((LIKE,), value, f"one of {listed(valid, 'and')}"))
+    defaults = {"name": Path(str(layer.place[0])).stem, "expected": None}
+    content = {key: value for key, value in layer.content.items() if key != LIKE}
+    content = from_mapping(defaults, layer.place[:1]).content | content
+    return [*layers_of(other, [*valid.values()]), Placed(content, layer.place)]
 
 
 def _refused(value: Placed, mistake: Mistake) -> InvalidConfiguration:
@@ -119,30 +119,31 @@ def _typed(value: Any) -> Any:
     """Numbers, true, false and null as such: inside of brackets the command line has text only."""
     match value:
         case Mapping():
-            return {key: _typed(item) for key, item in value.items()}
+            return {key: _typed(entry) for key, entry in value.items()}
         case list() | tuple():
-            return [_typed(item) for item in value]
+            return [_typed(entry) for entry in value]
         case str():
             with suppress(ValueError):
-                meant = json.loads(value)
-                return meant if meant is None or isinstance(meant, int | float) else value
+                parsed = json.loads(value)
+                return parsed if parsed is None or isinstance(parsed, int | float) else value
     return value
 
 
 def named_files(project: Path, study: Study) -> list[Mistake]:
     """Files that a study names and that are not there, or are not bands."""
     named = {EXPECTED: study.expected, DESCRIPTION: study.real.description}
-    named |= {("real", "data", part, "file"): its.file for part, its in study.real.data}
-    found = [
+    named |= {("real", "data", part, "file"): table.file for part, table in study.real.data}
+    mistakes = [
         unlike(path, file, "a file that is there" + (path != DESCRIPTION) * ", or null")
         for path, file in named.items()
         if file is not None and not (project / file).is_file()
     ]
-    if study.expected and not found:
+    if study.expected and not mistakes:
         with (project / study.expected).open(encoding="utf-8", errors="replace") as bands:
             if bands.readline().strip() != BANDS:
-                found.append(unlike(EXPECTED, study.expected, f"a table with the header {BANDS}"))
-    return found
+                valid = f"a table with the header {BANDS}"
+                mistakes.append(unlike(EXPECTED, study.expected, valid))
+    return mistakes
 
 
 def ship(project: Path) -> None:

@@ -113,7 +113,7 @@ def compare(
         achieved = apply(robot, shortening).chain.forward(believed[None])
         achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
         both = pose_errors(robot.workspace, achieved, desired, error)
-        errors.append([its.mean(axis=1) for its in both])
+        errors.append([values.mean(axis=1) for values in both])
     position, orientation = np.concatenate(errors, axis=1)
     table = {
         "position_error_cm": 100 * position / scale,

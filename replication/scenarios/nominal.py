@@ -17,7 +17,7 @@ class Nominal(Frozen):
     """Digest of the file that `robot.urdf` means: results follow from what stands in it."""
 
 
-def nominal(study: Study, robot: str) -> Nominal:
+def nominal_of(study: Study, robot: str) -> Nominal:
     """A robot of a study. See `find_urdf` for what it raises."""
     entry = study.robots[robot]
     digest = hashlib.sha256(find_urdf(entry.urdf).read_bytes()).hexdigest()

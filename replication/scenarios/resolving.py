@@ -11,7 +11,7 @@ from recalib.numerics.randomness import generator
 from replication.config.damages import Assigned, Entry, damages_among
 from replication.config.study import Study
 from replication.scenarios.assignments import Assignment, assign
-from replication.scenarios.nominal import Nominal, nominal
+from replication.scenarios.nominal import Nominal, nominal_of
 from replication.scenarios.plants import Resolved, nominal_controller
 
 
@@ -24,20 +24,20 @@ def resolve(
     study: Study, robot: str, scenarios: Sequence[str]
 ) -> tuple[list[Resolved], dict[str, np.ndarray]]:
     """Scenarios of a robot, and the table of `assign`, empty if none of them has a part in it."""
-    its = nominal(study, robot)
+    nominal = nominal_of(study, robot)
     table: dict[str, np.ndarray] = {}
     assignment: Assignment = ()
     if has_part(study, scenarios):
-        table, assignment = assign(its, study.paper_damage, study.seed)
-    return [_resolved(study, its, name, assignment) for name in scenarios], table
+        table, assignment = assign(nominal, study.paper_damage, study.seed)
+    return [_resolved(study, nominal, name, assignment) for name in scenarios], table
 
 
-def _resolved(study: Study, its: Nominal, scenario: str, assignment: Assignment) -> Resolved:
+def _resolved(study: Study, nominal: Nominal, scenario: str, assignment: Assignment) -> Resolved:
     """A scenario with its part of an assignment, and its mean initial errors over random poses."""
     damages: list[Entry] = []
     for entry in study.scenarios[scenario]:
         damages += entry.part_of(assignment) if isinstance(entry, Assigned) else [entry]
-    controller = nominal_controller(its)
+    controller = nominal_controller(nominal)
     workspace = controller.robot.workspace
     random = generator(study.seed, scenario, "initial errors")
     tests = workspace.sample(random, 1, study.paper_damage.poses)
@@ -46,7 +46,7 @@ def _resolved(study: Study, its: Nominal, scenario: str, assignment: Assignment)
     desired = workspace.to_poses(tests)
     return Resolved(
         scenario=scenario,
-        robot=its.name,
+        robot=nominal.name,
         damages=tuple(damages),
         workspace={
             "centre": workspace.centre.round(6).tolist(),
@@ -54,5 +54,5 @@ def _resolved(study: Study, its: Nominal, scenario: str, assignment: Assignment)
         },
         initial_position_error_cm=100 * position_error(achieved, desired).mean(),
         initial_orientation_error_deg=np.degrees(orientation_error(achieved, desired).mean()),
-        nominal=its,
+        nominal=nominal,
     )

@@ -33,7 +33,7 @@ def compete(study: Study, learner: str, settings: Sequence[Path]) -> pd.DataFram
     budgets = measured_at([*plan.moves, *plan.longer], iterations, moves_each)
     for scenario in resolve(study, study.robot, plan.scenarios)[0]:
         controller = scenario.controller()
-        its = (
+        competitor = (
             Tuned(study, settings).learner(learner, iterations, plan.seeds)
             if papers
             else make_peer(learner, plan.seeds, controller.robot)
@@ -42,7 +42,7 @@ def compete(study: Study, learner: str, settings: Sequence[Path]) -> pd.DataFram
             study.seed, runs, iterations, study.training.tests, scenario=scenario.scenario
         )
         plant = scenario.plant(controller, study.seed, runs)
-        history = train_for_results(plant, its, poses, budgets)
+        history = train_for_results(plant, competitor, poses, budgets)
         frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
         frames.append(frame.assign(scenario=scenario.scenario, learner=learner))
     return pd.concat(frames, ignore_index=True)

@@ -37,20 +37,20 @@ class Peer(NamedTuple):
 def peers() -> dict[str, Peer]:
     """All of them by name."""
     learning = [
-        Peer(label, its.needs, kind, settings)
-        for kind, its in KINDS.items()
-        for label, settings in its.peers.items()
+        Peer(label, entry.needs, kind, settings)
+        for kind, entry in KINDS.items()
+        for label, settings in entry.peers.items()
     ]
-    named = {its.label.lower().replace(" ", "_"): its for its in learning}
+    named = {peer.label.lower().replace(" ", "_"): peer for peer in learning}
     return {UNCORRECTED: Peer(UNCORRECTED, "nothing", "", {})} | named
 
 
 def make_peer(name: str, runs: int, robot: Robot) -> Learner:
     """The peer of this name, which has learned nothing yet, for a nominal robot."""
-    its = peers()[name]
+    peer = peers()[name]
     if name == UNCORRECTED:
         return UncorrectedLearner()
-    return class_of(its.kind).from_settings(its.settings, runs, robot)
+    return class_of(peer.kind).from_settings(peer.settings, runs, robot)
 
 
 def label_of(name: str) -> str:

@@ -58,6 +58,6 @@ def constant_widths(resolved: Resolved, rules: Rules, seed: int) -> pd.DataFrame
         rate = RATES[np.log(found).reshape(len(RATES), SEEDS).mean(axis=1).argmin()]
         poses = Stream.WIDTHS.draw(seed, range(SEEDS), ITERATIONS, MEASURING.tests)
         iterations = halved_after(resolved, rules, width, np.full(SEEDS, rate), poses, seed)
-        its = {"width": name, "rate": rate, "seed": range(SEEDS), "iterations": iterations}
-        tables.append(pd.DataFrame(its))
+        columns = {"width": name, "rate": rate, "seed": range(SEEDS), "iterations": iterations}
+        tables.append(pd.DataFrame(columns))
     return pd.concat(tables)

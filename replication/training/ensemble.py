@@ -14,7 +14,7 @@ from recalib.numerics.randomness import generator
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.scenarios.assignments import Assignment, Ways
-from replication.scenarios.nominal import nominal
+from replication.scenarios.nominal import nominal_of
 from replication.scenarios.plants import nominal_controller
 from replication.training.measured import ERRORS
 from replication.training.poses import Stream, train_for_results
@@ -44,10 +44,10 @@ def train_ensemble(study: Study, settings: Sequence[Path]) -> pd.DataFrame:
 
     Returns a row for each draw and scale, with both errors before and after learning.
     """
-    its, plan = nominal(study, study.robot), study.experiments
-    controller, scales = nominal_controller(its), plan.ensemble.scales
+    nominal, plan = nominal_of(study, study.robot), study.experiments
+    controller, scales = nominal_controller(nominal), plan.ensemble.scales
     robot, damage = controller.robot, study.paper_damage
-    ways = Ways(its.robot.links, damage.shorten, robot.joints, damage.shift)
+    ways = Ways(nominal.robot.links, damage.shorten, robot.joints, damage.shift)
     order = generator(study.seed, "ensemble", "scaled").permutation(len(ways)).tolist()
     drawn = islice(feasible(robot, ways, order, max(scales)), plan.ensemble.draws)
     cases = [(*draw, scale) for draw in enumerate(drawn) for scale in scales]
@@ -64,5 +64,5 @@ def train_ensemble(study: Study, settings: Sequence[Path]) -> pd.DataFrame:
         for when, moment in enumerate(("initial", "final"))
         for error in ERRORS
     }
-    about = {"draw": draws, "scale": [scale for _, _, scale in cases]}
-    return pd.DataFrame(about | {"refused": history.refused[:, -1]} | table)
+    labels = {"draw": draws, "scale": [scale for _, _, scale in cases]}
+    return pd.DataFrame(labels | {"refused": history.refused[:, -1]} | table)

@@ -31,9 +31,9 @@ Lengths = dict[str, tuple[int, ...]]  # by learner, ascending
 def places(study: Study) -> dict[Place, Lengths]:
     """For how many iterations which learners are trained, by robot and scenario."""
     plan, own = study.experiments, Place(study.robot, study.scenario)
-    found = {Place(study.robot, scenario): dict(plan.learners) for scenario in plan.scenarios}
-    found |= {Place(robot, study.scenario): dict(plan.learners) for robot in plan.robots}
-    here = found.setdefault(own, {})
+    planned = {Place(study.robot, scenario): dict(plan.learners) for scenario in plan.scenarios}
+    planned |= {Place(robot, study.scenario): dict(plan.learners) for robot in plan.robots}
+    own_learners = planned.setdefault(own, {})
     more = [*plan.own.items()]
     if plan.switches:
         names = (name for switch in SWITCHES for name in (switch.without, switch.added))
@@ -41,10 +41,10 @@ def places(study: Study) -> dict[Place, Lengths]:
     for name, lengths in more:
         if not lengths:
             continue
-        here[name] = tuple(sorted({*here.get(name, ()), *lengths}))
+        own_learners[name] = tuple(sorted({*own_learners.get(name, ()), *lengths}))
     return {
-        place: {name: tuple(sorted(its)) for name, its in lengths.items()}
-        for place, lengths in found.items()
+        place: {name: tuple(sorted(iterations)) for name, iterations in lengths.items()}
+        for place, lengths in planned.items()
     }
 
 

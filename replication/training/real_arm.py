@@ -21,7 +21,7 @@ from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
 from replication.config.study import Study
-from replication.scenarios.nominal import nominal
+from replication.scenarios.nominal import nominal_of
 from replication.scenarios.plants import nominal_robot
 from replication.training.competitors import MOVES, TWIN, UNCORRECTED, Peer, peers
 from replication.training.poses import Stream, train_for_results
@@ -50,7 +50,7 @@ def identified(kind: str, arm: Arm, measurements: TrackerMeasurements) -> Calibr
 
 
 def _black_box(
-    its: Peer, robot: Robot, known: TrackerMeasurements, unknown: TrackerMeasurements
+    peer: Peer, robot: Robot, known: TrackerMeasurements, unknown: TrackerMeasurements
 ) -> np.ndarray:
     """Asked for the pose that was measured, the learner should command the one that was."""
     arm, commanded = robot.arm, robot.arm.forward(known.angles)
@@ -59,7 +59,7 @@ def _black_box(
     ]
     reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
     workspace = Workspace(centre, np.where(reach > ROUNDING, reach, 1.0))
-    learner = cast(Observer, class_of(its.kind).from_settings(its.settings, 1, robot))
+    learner = cast(Observer, class_of(peer.kind).from_settings(peer.settings, 1, robot))
     sent, achieved = _coordinates(arm, workspace, known)
     learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
     sent, achieved = _coordinates(arm, workspace, unknown)
@@ -88,14 +88,14 @@ def remaining_errors(
         robot: the nominal one, its tool at the point that was measured; see `with_tool_point`.
         known, unknown: what it learns from, and what it is tested on.
     """
-    its = peers()[learner]
+    peer = peers()[learner]
     if learner == UNCORRECTED:
         errors = unknown.measured - unknown.nominal
-    elif its.needs == KINEMATICS:
-        reached = identified(its.kind, robot.arm, known).forward(unknown.angles)
+    elif peer.needs == KINEMATICS:
+        reached = identified(peer.kind, robot.arm, known).forward(unknown.angles)
         errors = unknown.measured - reached[:, :3, 3]
     else:
-        errors = _black_box(its, robot, known, unknown)
+        errors = _black_box(peer, robot, known, unknown)
     return np.linalg.norm(errors, axis=-1)
 
 
@@ -118,13 +118,14 @@ def learn(
     Returns a row for each number of poses, or of moves on the twin, and random subset of them, with
     the mean error in mm.
     """
-    said = read_whole_description(description)
-    assert said.target is not None  # as of a whole description
-    robot = with_tool_point(nominal_robot(nominal(study, study.real.robot)), said.target[:3, 3])
-    known = read_of(robot.arm, fit, said)
+    described = read_whole_description(description)
+    assert described.target is not None  # as of a whole description
+    nominal = nominal_robot(nominal_of(study, study.real.robot))
+    robot = with_tool_point(nominal, described.target[:3, 3])
+    known = read_of(robot.arm, fit, described)
     if learner in study.real.twin:
         return _on_twin(study, learner, robot, known, Tuned(study, settings))
-    return _from_tables(study, learner, robot, known, read_of(robot.arm, test, said))
+    return _from_tables(study, learner, robot, known, read_of(robot.arm, test, described))
 
 
 def _from_tables(

@@ -13,12 +13,12 @@ from replication.training.poses import Stream
 
 
 def replay(
-    resolved: Resolved, learner: Callable[[], HierarchicalLearner], iterations: int, seed: int
+    resolved: Resolved, make_learner: Callable[[], HierarchicalLearner], iterations: int, seed: int
 ) -> pd.DataFrame:
     """For each array that the learner holds, the largest difference between both teachers.
 
     Args:
-        learner: makes one of a single run that has learned nothing.
+        make_learner: makes one of a single run that has learned nothing.
     """
     plant = resolved.plant(resolved.controller(), seed, [0])
     desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired
@@ -35,10 +35,10 @@ def replay(
 
     learned = []
     for execute in (by_robot, by_table):
-        its = learner()
+        learner = make_learner()
         for iteration in range(iterations):
-            its.learn(desired[:, iteration], execute, iteration / iterations)
-        learned.append(flat(its.state()[0]))
+            learner.learn(desired[:, iteration], execute, iteration / iterations)
+        learned.append(flat(learner.state()[0]))
     first, second = learned
     return pd.DataFrame(
         [

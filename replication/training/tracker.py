@@ -102,7 +102,7 @@ def fetched(source: Source) -> bytes:
             f"{where} is out of reach ({error}); a copy on this machine can be"
             " named in real.data, as `file`"
         ) from None
-    found = hashlib.sha256(content).hexdigest()
-    if found != source.sha256:
-        raise RecalibError(f"{where} has SHA-256 {found}; expected {source.sha256}")
+    digest = hashlib.sha256(content).hexdigest()
+    if digest != source.sha256:
+        raise RecalibError(f"{where} has SHA-256 {digest}; expected {source.sha256}")
     return content

@@ -34,8 +34,8 @@ def train(
         histories, learned: files that are written, one for each learner in the order of the plan.
     """
     place, tuned = Place(robot, scenario), Tuned(study, settings)
-    its, seeds = Resolved.read(resolved), range(study.training.seeds)
-    controller = its.controller()
+    resolved_scenario, seeds = Resolved.read(resolved), range(study.training.seeds)
+    controller = resolved_scenario.controller()
     plan = places(study)[place].items()
     for (name, lengths), history, archive in zip(plan, histories, learned, strict=True):
         tables, learners = [], {}
@@ -46,7 +46,7 @@ def train(
             )
             shown = throughout(study, place, name, iterations)
             measure_at = study.training.during(iterations) if shown else [0, iterations]
-            plant = its.plant(controller, study.seed, seeds)
+            plant = resolved_scenario.plant(controller, study.seed, seeds)
             measured = train_for_results(plant, learner, poses, measure_at)
             if refused := measured.refused[:, -1].sum():
                 where = f"{name}, {iterations} iterations, on {scenario}"

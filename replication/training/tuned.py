@@ -30,7 +30,7 @@ def rules_of(learner: LearnerSettings) -> Rules:
 
 def trained(study: Study) -> set[tuple[str, int]]:
     """Each learner of the paper with each number of iterations for which settings are needed."""
-    found = {
+    trainings = {
         (learner, iterations)
         for learners in places(study).values()
         for learner, lengths in learners.items()
@@ -39,7 +39,7 @@ def trained(study: Study) -> set[tuple[str, int]]:
     more = [*study.benchmark.papers.items(), *study.real.twin.items()]
     if study.experiments.evidence:
         more.append((IMPROVED, study.experiments.iterations))  # for the ensemble
-    return found | {*more}
+    return trainings | {*more}
 
 
 def untuned(study: Study, project: Path = Path()) -> list[str]:

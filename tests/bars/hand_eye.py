@@ -72,10 +72,10 @@ def draw(cell: HandEyeCell, pictures: int, rendered: bool, wrong: int) -> list[f
         wrong: how many rows have the pose of the row before.
     """
     flange = cell.flange(pictures + FRESH)
-    flanges, views = cell.said(flange), cell.views(flange)
+    flanges, views = cell.reported(flange), cell.views(flange)
     flanges[1 : wrong + 1] = flanges[:wrong].copy()
     if rendered:
-        images = [cell.draw(pose) for pose in cell.seen(flange[:pictures])]
+        images = [cell.draw(pose) for pose in cell.board_poses(flange[:pictures])]
         views[:pictures] = [find_corners(cell.board, picture) for picture in images]
     lens = find_lens([(cell.board, view) for view in views[:pictures]], cell.lens.size).lens
     sightings = [sighting(cell.board, lens, view, True, False) for view in views[:pictures]]

@@ -11,7 +11,7 @@ import numpy as np
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification.checks.identifiability import unidentifiable_parameters
-from recalib.identification.checks.repeatability import weigh
+from recalib.identification.checks.scales import returning
 from recalib.identification.closed_forms import solutions
 from recalib.identification.estimation import identify
 from recalib.identification.model.error_model import ErrorModel
@@ -67,7 +67,7 @@ class Draw:
             frames = frames.with_optics(observations.optics)
         model = ErrorModel(self.cell.arm, OFFSETS, frames)
         if observations.optics is not None:
-            observations = weigh(model, observations)
+            observations = observations.with_noise(returning(model, observations))
         return Calibration(model, identify(model, observations))
 
     def judge(self, poses: np.ndarray) -> tuple[float, np.ndarray]:

@@ -48,7 +48,7 @@ def test_a_link_bends_towards_an_axis_of_its_frame_or_any_angle_from_there(robot
         moved -= (moved @ line) * line
         expected = Rotation.from_rotvec(towards * line).apply(sideways)
         assert angle(moved, expected) == pytest.approx(0, abs=1e-6)
-    opposite = [ends(robot, LinkBend(link, *its))[1] for its in ((0.1, np.pi), (-0.1, 0.0))]
+    opposite = [ends(robot, LinkBend(link, *bend))[1] for bend in ((0.1, np.pi), (-0.1, 0.0))]
     np.testing.assert_allclose(*opposite, atol=1e-12)
 
 

@@ -1,8 +1,11 @@
+"""What moves and measurements of a plant meet: noise, outliers, repeatability, and refusals."""
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import (
+    BaseShift,
     Controller,
     Disturbances,
     InvalidSetting,
@@ -10,6 +13,7 @@ from recalib import (
     Outliers,
     Plant,
     Repeatability,
+    apply,
     load_robot,
     orientation_error,
 )
@@ -25,16 +29,12 @@ def commands() -> np.ndarray:
     return np.random.default_rng(2).uniform(-1, 1, (2, 40, 6))
 
 
-def test_noise_has_the_size_that_was_asked_for():
+def test_noise_and_outliers_are_as_large_and_as_many_as_asked_for():
     poses = np.tile(np.eye(4), (1, 4000, 1, 1))
     measured = Disturbances(Noise(2e-4, 3e-4)).measure(generators(3), poses)
     assert np.std(measured[..., :3, 3]) == pytest.approx(2e-4, rel=0.05)
     angles = orientation_error(measured, poses)
     assert np.sqrt(np.mean(angles**2) / 3) == pytest.approx(3e-4, rel=0.05)
-
-
-def test_outliers_are_as_many_and_as_far_as_asked_for():
-    poses = np.tile(np.eye(4), (1, 4000, 1, 1))
     measured = Disturbances(outliers=Outliers(0.1, 0.05)).measure(generators(4), poses)
     misses = np.linalg.norm(measured[..., :3, 3], axis=-1)
     assert np.mean(misses > 0) == pytest.approx(0.1, rel=0.2)
@@ -52,7 +52,7 @@ def test_joints_stop_beside_their_angle():
     stops = Disturbances(repeatability=Repeatability(1e-4)).of_joints(generators(5, 6), (3000, 6))
     assert stops.shape == (2, 3000, 6)
     assert np.std(stops, axis=1) == pytest.approx(np.full((2, 6), 1e-4), rel=0.05)
-    assert np.abs(np.corrcoef(stops[..., 0])[0, 1]) < 0.1, "each run with luck of its own"
+    assert np.abs(np.corrcoef(stops[..., 0])[0, 1]) < 0.1, "each run with random numbers of its own"
 
 
 def test_what_an_instrument_adds_does_not_depend_on_where_the_arm_stands():
@@ -64,8 +64,8 @@ def test_what_an_instrument_adds_does_not_depend_on_where_the_arm_stands():
     added = []
     for poses in (np.tile(np.eye(4), (1, 5, 1, 1)), moved):
         measured = disturbances.measure(generators(3), poses)
-        turns = measured[..., :3, :3] @ poses[..., :3, :3].swapaxes(-1, -2)
-        added.append((measured[..., :3, 3] - poses[..., :3, 3], turns))
+        rotations = measured[..., :3, :3] @ poses[..., :3, :3].swapaxes(-1, -2)
+        added.append((measured[..., :3, 3] - poses[..., :3, 3], rotations))
     for one, other in zip(*added, strict=True):
         np.testing.assert_allclose(one, other, rtol=0, atol=1e-12)
 
@@ -96,8 +96,8 @@ def test_a_joint_that_slides_does_not_miss_its_place_by_an_angle(tmp_path, comma
 
     plant = Plant(controller, Arm(), Disturbances(repeatability=Repeatability(1e-3)), generators(7))
     plant.execute(commands[:1])
-    missed = stops[-1] - controller.targets(commands[:1]).angles[0]
-    assert missed.std(axis=0) == pytest.approx([0, *[1e-3] * 6], rel=0.4)
+    errors = stops[-1] - controller.targets(commands[:1]).angles[0]
+    assert errors.std(axis=0) == pytest.approx([0, *[1e-3] * 6], rel=0.4)
 
 
 def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, commands):
@@ -134,3 +134,32 @@ def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, com
 def test_impossible_sizes_are_refused_by_name(kind, sizes, message):
     with pytest.raises(InvalidSetting, match=message):
         kind(*sizes)
+
+
+@pytest.fixture
+def few() -> np.ndarray:
+    few = np.random.default_rng(3).uniform(-0.8, 0.8, (2, 3, 6))
+    few[1, 2] = 50  # out of reach
+    return few
+
+
+def test_a_robot_for_each_run_does_what_it_does_alone(controller, damaged, few):
+    moved = apply(controller.robot, [BaseShift(translate=(0.01, 0.0, 0.02))])
+    together = Plant(controller, [damaged, moved]).execute(few)
+    for run, arm in enumerate((damaged, moved)):
+        alone = Plant(controller, arm).execute(few[[run]])
+        assert np.array_equal(together.achieved[[run]], alone.achieved)
+        assert np.array_equal(together.executed[[run]], alone.executed)
+
+
+def test_moves_are_counted_with_those_that_were_refused_and_measuring_is_not(
+    controller, damaged, few
+):
+    plant = Plant(controller, damaged)
+    poses, executed = plant.achieve(few)
+    assert plant.moves == plant.refused == 0
+    home = damaged.forward(controller.robot.home[None])[0]
+    assert np.argwhere(~executed).tolist() == [[1, 2]] and np.allclose(poses[1, 2], home)
+    for _ in range(2):
+        plant.execute(few)
+    assert plant.moves == 6 and plant.refused.tolist() == [0, 2]

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.faults.yard import Yard, digests_of, expect_no_strays
-from tests.project import Project, ended, expect, kill
+from tests.faults.yard import Yard, at_work, digests_of, expect_no_strays
+from tests.project import Project, expect, kill, outcome_of
 
 RESULTS = Path("results/studies/faults")
 CHAIN = 6  # times that everything is killed before a run may end
@@ -32,13 +32,13 @@ def started_run(yard: Yard) -> tuple[Project, subprocess.Popen]:
     """A run from the beginning that is at work."""
     project = yard.bare()
     process = project.start()
-    project.at_work(process)
+    at_work(project, process)
     return project, process
 
 
 def expect_next_run_finishes(yard: Yard, project: Project) -> None:
     """Expect that the next run ends well, with the results of an undisturbed run."""
-    project.run().well()
+    project.run().expect_success()
     yard.expect_results(project)
 
 
@@ -47,7 +47,7 @@ def test_all_processes_are_killed_at_random_moments_and_run_again_each_time(yard
     project, rng = yard.bare(), random.Random(1996)
     for _ in range(CHAIN):
         process = project.start()
-        project.at_work(process)
+        at_work(project, process)
         time.sleep(rng.uniform(0, 3))
         kill(process)
     expect_next_run_finishes(yard, project)
@@ -57,8 +57,8 @@ def test_all_processes_are_killed_at_random_moments_and_run_again_each_time(yard
 def test_one_job_is_killed(yard):
     project = yard.bare()
     process = project.start()
-    project.at_work(process)[0].kill()
-    ended(process).badly()
+    at_work(project, process)[0].kill()
+    outcome_of(process).expect_failure()
     expect_next_run_finishes(yard, project)
 
 
@@ -67,16 +67,18 @@ def test_it_is_interrupted(yard):
     project, process = started_run(yard)
     time.sleep(2)  # earlier, Python itself would answer with a traceback
     os.killpg(process.pid, signal.SIGINT)
-    ended(process).badly()
+    outcome_of(process).expect_failure()
     expect_next_run_finishes(yard, project)
 
 
 @pytest.mark.slow
 def test_a_second_run_of_the_same_study_is_refused(yard):
     project, first = started_run(yard)
-    waiting = project.run().told(f"another run is at work in {RESULTS}: wait until it has ended")
-    expect(waiting.said.count("at work in") == 1, "one sentence")
-    ended(first).well()
+    waiting = project.run().expect_refusal(
+        f"another run is at work in {RESULTS}: wait until it has ended"
+    )
+    expect(waiting.output.count("at work in") == 1, "one sentence")
+    outcome_of(first).expect_success()
     yard.expect_results(project)
 
 
@@ -84,15 +86,15 @@ def test_a_second_run_of_the_same_study_is_refused(yard):
 def test_two_studies_run_at_once_and_one_is_killed_and_run_again(yard):
     project, options = yard.bare(), ("--config", "name=other", "seed=7")
     second = project.start(*options)
-    project.at_work(second)
+    at_work(project, second)
     first = project.start()
     time.sleep(1)
     kill(second)
-    project.run(*options).well()
-    ended(first).well()
+    project.run(*options).expect_success()
+    outcome_of(first).expect_success()
     yard.expect_results(project)
     alone = yard.bare()
-    alone.run(*options).well()
+    alone.run(*options).expect_success()
     here, there = (digests_of(copy.results.with_name("other")) for copy in (project, alone))
     expect(here == there, "the results of the second as if it were alone")
 
@@ -126,9 +128,9 @@ def test_the_disk_is_full_and_then_there_is_room_again(yard):
     for part in (0.02, 0.5):
         project = yard.bare()
         with small_disk(project, max(1, int(part * size / 2**20))) as options:
-            project.run(**options).badly()
+            project.run(**options).expect_failure()
             expect_no_strays(project)
-        project.run().well()
+        project.run().expect_success()
         yard.expect_results(project)
 
 
@@ -159,8 +161,8 @@ def _permit(folder: Path, writing: bool) -> None:
 def test_a_folder_of_results_is_read_only(yard):
     project = yard.complete()
     with read_only(project.folder / "results"):
-        project.run().well()  # there is nothing to do
-        project.run("--forcerun", "summary").told("Write-protected output files")
+        project.run().expect_success()  # there is nothing to do
+        project.run("--forcerun", "summary").expect_refusal("Write-protected output files")
     yard.expect_results(project)
 
 
@@ -168,7 +170,7 @@ def test_a_folder_of_results_is_read_only(yard):
 def test_a_project_is_read_only(yard):
     project = yard.complete()
     with read_only(project.folder):
-        project.run("--forcerun", "summary").badly()
+        project.run("--forcerun", "summary").expect_failure()
     yard.expect_results(project)
 
 
@@ -198,7 +200,7 @@ CIRCUMSTANCES = {
 def test_a_run_is_like_any_other(circumstance, yard):
     options = dict(CIRCUMSTANCES[circumstance])
     project = yard.bare(options.pop("folder", "project"))
-    project.run(**options).well()
+    project.run(**options).expect_success()
     yard.expect_results(project)
 
 
@@ -207,8 +209,8 @@ def test_the_clock_goes_back_by_a_day_in_the_middle_and_is_then_right_again(yard
     if not shutil.which("faketime"):
         pytest.skip("faketime is not installed")
     project = yard.bare()
-    project.run("--until", "train_ur10_translation").well()
-    project.run(before=["faketime", "-f", "-1d"]).told("has older modification time")
+    project.run("--until", "train_ur10_translation").expect_success()
+    project.run(before=["faketime", "-f", "-1d"]).expect_refusal("has older modification time")
     expect_next_run_finishes(yard, project)
 
 
@@ -223,7 +225,7 @@ def test_results_are_dated_ahead_by_a_day_and_a_setting_is_changed(yard):
     now = time.time()
     date(now + 86400)
     run = project.run("--config", "training={tests: 11}")
-    run.told("has older modification time")
+    run.expect_refusal("has older modification time")
     date(now)
     expect_next_run_finishes(yard, project)
 
@@ -232,7 +234,7 @@ def test_snakemakes_notes_are_deleted_and_a_setting_is_changed(yard):
     project = yard.complete()
     shutil.rmtree(project.folder / ".snakemake")
     options = "--config", "training={tests: 11}"
-    project.run(*options).told(f"remove {RESULTS}, or, if nothing was changed since,")
+    project.run(*options).expect_refusal(f"remove {RESULTS}, or, if nothing was changed since,")
     (project.results / ".running").unlink()
     expect_next_run_finishes(yard, project)
 
@@ -241,5 +243,5 @@ def test_there_is_no_network_for_the_real_arm(yard):
     nowhere = dict.fromkeys(("http_proxy", "https_proxy", "all_proxy"), "http://127.0.0.1:9")
     project = yard.complete()
     run = project.run("--", "results/studies/faults/real/fit.csv", environment=nowhere)
-    run.told("real_data: ")
+    run.expect_refusal("real_data: ")
     yard.expect_results(project)

@@ -41,7 +41,7 @@ def test_killed_at_any_moment_it_goes_on_as_if_it_had_not_been(tmp_path):
 def start_live(folder):
     """`recalib live` in a folder, in a process of its own."""
     folder.mkdir(exist_ok=True)
-    line = LINE.format("Lasting").replace("14", "40")  # it ends before that
+    line = LINE.format("tests.faults.lasting:Lasting").replace("14", "40")  # it ends before that
     return subprocess.Popen(
         [sys.executable, "-m", "recalib", *line.split(), "--yes"],
         cwd=folder,

@@ -22,7 +22,7 @@ from replication.plots.figures import figures_of
 from replication.running.consistency import check
 from replication.running.geometry import check_robots
 from replication.running.studies import named_files
-from replication.scenarios.nominal import nominal
+from replication.scenarios.nominal import nominal_of
 from replication.training.plan import places
 from replication.training.settings import Space
 from replication.training.tuned import rules_of, trained
@@ -129,7 +129,7 @@ def assert_sense(study: Study) -> None:
     root = root_of(study.name)
     for place, learners in places(study).items():
         assert learners and all(learners.values())
-        nominal(study, place.robot)
+        nominal_of(study, place.robot)
         paths = [place.scenario_file(root), *(place.history_file(root, name) for name in learners)]
         assert len(paths) == len({*paths})
     few = study.training.model_copy(update={"measurements": min(study.training.measurements, 100)})

@@ -2,15 +2,31 @@
 
 import hashlib
 import shutil
+import subprocess
 from functools import cached_property
 from pathlib import Path
 
+import psutil
+
 from recalib.files.storage import is_temporary
-from tests.project import Project, expect
+from tests.project import Project, expect, wait_until
 
 STUDY = "--configfile", "tests/faults/study.yaml"
 # Folders of files that differ between runs: identities of rows, names of folders, times.
 UNLIKE = {"recordings", "logs", "settings"}
+
+
+def at_work(project: Project, process: subprocess.Popen) -> list[psutil.Process]:
+    """The jobs of a run as soon as some are at work; none if it ends before."""
+    found, folder = [], str(project.folder / ".snakemake" / "scripts")
+
+    def some_at_work() -> bool:
+        running = psutil.process_iter(["cmdline"])
+        found[:] = [job for job in running if folder in " ".join((job.info["cmdline"] or [])[:2])]
+        return bool(found) or process.poll() is not None
+
+    wait_until("a job is at work", some_at_work)
+    return found
 
 
 def expect_no_strays(project: Project) -> None:
@@ -56,7 +72,7 @@ class Yard:
     @cached_property
     def _undisturbed(self) -> Project:
         project = self.bare()
-        project.run().well()
+        project.run().expect_success()
         return project
 
     @cached_property

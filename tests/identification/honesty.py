@@ -29,9 +29,9 @@ class Session:
     """Rows of a UR10 in the order in which they were measured, with a fault.
 
     Args:
-        kind, size: lag, of a step to the row; jump or drift, m; nothing unless given.
-        on_a_path: whether rows lie along one; or anywhere.
-        times: of the rows [s], where they carry them: a lag is in seconds then.
+        kind, size: of the fault: a lag [steps from row to row], a jump or a drift [m]; or none.
+        on_a_path: whether rows lie along a path, or anywhere.
+        times: of the rows [s], if they have any: a lag is in seconds then.
     """
 
     def __init__(
@@ -47,8 +47,8 @@ class Session:
     ):
         self._arm, self._kind, self._size = arm, kind, size
         self._real, self._rng = Real(arm, seed), np.random.default_rng([seed, 7])
-        self._towards = self._rng.standard_normal(3)
-        self._towards /= np.linalg.norm(self._towards)
+        self._direction = self._rng.standard_normal(3)
+        self._direction /= np.linalg.norm(self._direction)
         joints = self._postures(max(rows // 6, 4) if on_a_path else rows)
         if on_a_path:
             along = CubicSpline(np.linspace(0, 1, len(joints)), joints)
@@ -57,7 +57,7 @@ class Session:
         speeds = np.diff(joints, axis=0, prepend=joints[:1])
         speeds[1:] /= np.diff(clock)[:, None]
         poses = self._real.poses(joints - size * (kind == LAG) * speeds)
-        poses[:, :3, 3] += self._moved(clock / clock[-1])
+        poses[:, :3, 3] += self._shifts(clock / clock[-1])
         measured = poses[:, :3, 3] if positions else poses
         self.observations = Observations(joints, measured, times=times)
         self._frames = initial_frames(arm, self.observations)
@@ -65,13 +65,13 @@ class Session:
     def _postures(self, count: int) -> np.ndarray:
         return MIDDLE + self._rng.uniform(-AROUND, AROUND, (count, 6))
 
-    def _moved(self, times: np.ndarray) -> np.ndarray:
-        """How far (n, 3) [m] the instrument has moved when parts (n,) of the rows are measured."""
-        far = {JUMP: times >= 0.4, DRIFT: times}.get(self._kind, 0 * times)
-        return self._size * np.outer(far, self._towards)
+    def _shifts(self, times: np.ndarray) -> np.ndarray:
+        """Shifts (n, 3) [m] of the instrument when parts (n,) of the rows are measured."""
+        parts = {JUMP: times >= 0.4, DRIFT: times}.get(self._kind, 0 * times)
+        return self._size * np.outer(parts, self._direction)
 
-    def named(self) -> list[Fault]:
-        """What is found in the order of the rows."""
+    def find_faults(self) -> list[Fault]:
+        """Faults that the order of the rows shows."""
         model = ErrorModel(self._arm, OFFSETS, self._frames)
         estimate = identify_by_consensus(model, self.observations)
         geometry = Calibration(model, estimate)

@@ -64,12 +64,12 @@ class Real:
             tool, jacobians = self._arm.forward_and_jacobian(joints + self._offsets)
             lever = tool[:, :3, :3] @ ball
             turning = np.cross(jacobians[:, 3:].swapaxes(1, 2), lever[:, None]).swapaxes(1, 2)
-            missing = goals - tool[:, :3, 3] - lever
-            steps = np.linalg.pinv(jacobians[:, :3] + turning) @ missing[..., None]
+            residuals = goals - tool[:, :3, 3] - lever
+            steps = np.linalg.pinv(jacobians[:, :3] + turning) @ residuals[..., None]
             joints = joints + np.clip(steps[..., 0], -0.3, 0.3)
         low, high = self._limits
-        there = (np.abs(missing) < 1e-9).all(axis=1) & (joints > low).all(axis=1)
-        found = joints[there & (joints < high).all(axis=1)]
+        converged = (np.abs(residuals) < 1e-9).all(axis=1) & (joints > low).all(axis=1)
+        found = joints[converged & (joints < high).all(axis=1)]
         assert len(found) >= count
         return found[:count]
 

@@ -61,10 +61,8 @@ def test_a_restored_calibration_knows_which_joints_were_held(robot, geared):
     last = np.arange(6) == 5
     calibration = calibrate(robot.arm, (held(OFFSETS, last),), geared)
     again = Calibration.restore(robot.arm, calibration.state())
-    assert again.parameters == calibration.parameters
-    assert "offset of wrist_3_joint" not in again.parameters
-    assert again.summary() == calibration.summary()
-    older = {name: its for name, its in calibration.state().items() if name != "deviations"}
+    assert np.array_equal(again.model.deviations, calibration.model.deviations)
+    older = {name: value for name, value in calibration.state().items() if name != "deviations"}
     assert np.array_equal(
         Calibration.restore(robot.arm, older).forward(geared.joints),
         calibration.forward(geared.joints),

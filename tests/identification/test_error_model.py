@@ -1,9 +1,12 @@
+"""Jacobians of the error model, and damages as its parameters."""
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import JOINT_ERRORS, JOINT_WAVES, BaseShift, EccentricGear, EncoderShift, apply
 from recalib.identification.model import ErrorModel
+from recalib.identification.model.optics import _whitening
 from replication.scenarios import nominal_robot
 from tests.arms import RAILED
 
@@ -25,16 +28,16 @@ def test_jacobians_agree_with_finite_differences(name, at_nominal, plan, load):
     model = ErrorModel(arm, terms)
     parameters = drawn(model, 1) * (not at_nominal)
     angles = home + np.random.default_rng(2).uniform(-0.5, 0.5, (3, len(home)))
-    poses, jacobians = model.linearise(parameters, angles, model.terms(angles))
+    poses, jacobians = model.linearise(parameters, angles)
     assert np.allclose(poses, model.predict(parameters, angles), atol=1e-12)
     for index, unit in enumerate(np.eye(len(parameters))):
         # central differences of the fourth order; torques make the column of the compliance large
         step = 1e-3 / max(1, np.abs(jacobians[..., index]).max())
-        near, far = (
+        narrow, wide = (
             _turn(*(model.predict(parameters + sign * d * unit, angles) for sign in (-1, 1)))
             for d in (step, 2 * step)
         )
-        assert np.allclose(jacobians[..., index], (8 * near - far) / (12 * step), atol=1e-6)
+        assert np.allclose(jacobians[..., index], (8 * narrow - wide) / (12 * step), atol=1e-6)
 
 
 def _turn(start: np.ndarray, end: np.ndarray) -> np.ndarray:
@@ -45,9 +48,8 @@ def _turn(start: np.ndarray, end: np.ndarray) -> np.ndarray:
 def test_zero_parameters_are_the_nominal_arm(robot):
     angles = np.random.default_rng(3).uniform(-1, 1, (5, 6))
     model = ErrorModel(robot.arm, JOINT_WAVES)
-    assert np.allclose(
-        model.predict(np.zeros_like(model.deviations), angles), robot.arm.forward(angles)
-    )
+    found = model.predict(np.zeros_like(model.deviations), angles)
+    assert np.allclose(found, robot.arm.forward(angles))
 
 
 @pytest.mark.parametrize(
@@ -74,3 +76,10 @@ def test_a_damage_has_parameters(parameters, damage, robot):
             found[TWISTS + 6 * names.index(name) + 2] = value
             assert model.coefficients(found)[name][2] == value
     assert np.allclose(model.predict(found, angles), apply(robot, [damage]).forward(angles))
+
+
+def test_a_picture_far_off_does_not_change_what_a_typical_one_weighs():
+    spread = np.stack([np.diag([4.0, 4.0, 4.0, 9.0, 9.0, 9.0])] * 5)
+    spread[-1] *= 1e4
+    assert _whitening(spread)[:-1] == pytest.approx(np.stack([np.eye(6)] * 4))
+    assert _whitening(spread)[-1] == pytest.approx(np.eye(6) / 100)

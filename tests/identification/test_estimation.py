@@ -1,18 +1,22 @@
 """The most probable arm is that of a slow implementation, and doubts are where they belong."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from recalib import (
     JOINT_ERRORS,
     OFFSETS,
+    Calibration,
     Disturbances,
     Noise,
     Observations,
+    information_gains,
     orientation_error,
     position_error,
 )
-from recalib.identification import identify
+from recalib.identification import identify, most_informative
 from recalib.identification.model import ErrorModel, displacements
 from tests import reference
 
@@ -41,7 +45,7 @@ def test_the_estimate_is_that_of_the_slow_implementation(robot, damaged, terms, 
         measured = measured[:, :3, 3]
     by_posture = model.terms(angles)
     parameters, noise, weights, evidence = reference.identify(
-        lambda these: model.linearise(these, angles, by_posture), model.deviations, measured
+        lambda these: model.linearise(these, angles, terms=by_posture), model.deviations, measured
     )
     found = identify(model, Observations(angles, measured))
     unknown = np.sqrt(np.diag(found.covariance))
@@ -64,12 +68,15 @@ def test_exact_measurements_identify_the_arm(robot, controller, damaged, what, r
 
 def test_the_start_changes_the_time_and_not_the_answer(robot, controller, damaged):
     model, angles = ErrorModel(robot.arm, OFFSETS), postures(controller, 60)
-    seen = Observations(angles, noisy(damaged, angles, 4))
-    cold = identify(model, seen)
-    for start in (identify(model, seen[:30]), identify(ErrorModel(robot.arm, JOINT_ERRORS), seen)):
-        warm = identify(model, seen, start)
-        apart = model.predict(warm.parameters, angles) - model.predict(cold.parameters, angles)
-        assert np.abs(apart).max() < 2e-5
+    observations = Observations(angles, noisy(damaged, angles, 4))
+    cold = identify(model, observations)
+    for start in (
+        identify(model, observations[:30]),
+        identify(ErrorModel(robot.arm, JOINT_ERRORS), observations),
+    ):
+        warm = identify(model, observations, start)
+        gaps = model.predict(warm.parameters, angles) - model.predict(cold.parameters, angles)
+        assert np.abs(gaps).max() < 2e-5
 
 
 def test_the_covariance_tells_how_wrong_predictions_are(robot, controller):
@@ -77,13 +84,38 @@ def test_the_covariance_tells_how_wrong_predictions_are(robot, controller):
     model, generator = ErrorModel(robot.arm, OFFSETS), np.random.default_rng(6)
     angles = postures(controller, 25)
     known, asked = angles[:20], angles[20:]
-    squares, said = [], []
+    squares, variances = [], []
     for _ in range(100):
         parameters = model.deviations * generator.standard_normal(len(model.deviations))
         measured = NOISY.measure([generator], model.predict(parameters, known)[None])[0]
         estimate = identify(model, Observations(known, measured))
-        predicted, jacobians = model.linearise(estimate.parameters, asked, model.terms(asked))
+        predicted, jacobians = model.linearise(estimate.parameters, asked)
         squares.append(displacements(predicted, model.predict(parameters, asked)) ** 2)
-        said.append(np.einsum("ndp,pq,ndq->nd", jacobians, estimate.covariance, jacobians))
-    ratio = np.sqrt(np.mean(squares, axis=(0, 1)) / np.mean(said, axis=(0, 1)))
+        variances.append(np.einsum("ndp,pq,ndq->nd", jacobians, estimate.covariance, jacobians))
+    ratio = np.sqrt(np.mean(squares, axis=(0, 1)) / np.mean(variances, axis=(0, 1)))
     assert np.all((ratio > 0.8) & (ratio < 1.2)), "of a coordinate"
+
+
+@pytest.fixture
+def angles(controller):
+    return postures(controller, 9)
+
+
+@pytest.fixture(params=["poses", "positions"])
+def calibration(request, robot, damaged, angles):
+    model, measured = ErrorModel(robot.arm, OFFSETS), damaged.forward(angles[:3])
+    measured = measured if request.param == "poses" else measured[:, :3, 3]
+    return Calibration(model, identify(model, Observations(angles[:3], measured)))
+
+
+def test_each_of_a_set_is_the_best_given_those_before_it(calibration, angles):
+    remaining, known = {*range(len(angles))}, calibration
+    for number, covariance in most_informative(calibration, angles, 20):
+        gains = information_gains(known, angles)
+        assert number == max(remaining, key=gains.__getitem__)
+        remaining.remove(number)
+        before = np.linalg.slogdet(known.estimate.covariance).logabsdet
+        shrunk = (before - np.linalg.slogdet(covariance).logabsdet) / 2
+        assert shrunk == pytest.approx(gains[number], rel=1e-6)
+        known = replace(calibration, estimate=replace(known.estimate, covariance=covariance))
+    assert not remaining

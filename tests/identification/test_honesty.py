@@ -1,4 +1,4 @@
-"""What is said of an arm holds for postures that nobody measured."""
+"""Reported errors hold for postures that nobody measured."""
 
 import numpy as np
 import pytest
@@ -14,8 +14,8 @@ GEARS, HELD_BACK = np.radians(0.03), 400
 
 @pytest.mark.parametrize("name", ARMS)
 def test_what_is_said_holds_where_a_posture_has_three_targets(name):
-    """From 60 postures a mean error is known to 9 %, whatever the folds: the luck of its postures
-    alone would put one arm in twenty off by 20 %. That folds learn from fewer rows adds 5 %.
+    """From 60 postures a mean error is known to 9 %, whatever the folds: by the choice of postures
+    alone, one arm in twenty would be off by 20 %. Folds learn from fewer rows, which adds 5 %.
     """
     arm = load_arm(*ARMS[name])
     real = Real(arm, 0, targets=3, gears=GEARS)
@@ -23,8 +23,8 @@ def test_what_is_said_holds_where_a_posture_has_three_targets(name):
     found = validate(arm, known, initial_frames(arm, known))
     assert len(found.postures) == 150
     for kind in (GEOMETRIC, HYBRID):
-        said = found.errors(RANDOM, kind)[found.counted, 0].mean()
-        assert said == pytest.approx(distances(found.full[kind], fresh).mean(), rel=0.2)
+        reported = found.errors(RANDOM, kind)[found.counted, 0].mean()
+        assert reported == pytest.approx(distances(found.full[kind], fresh).mean(), rel=0.2)
 
 
 def other_half(arm, seed: int) -> float:
@@ -39,15 +39,11 @@ def other_half(arm, seed: int) -> float:
     return float(np.mean(errors <= found.radius))
 
 
-def test_intervals_hold_where_nobody_measured(ur10):
+def test_intervals_hold_where_nobody_measured_and_where_postures_are_few(ur10):
     """20 arms are measured in one half of a joint's range and judged in the other."""
     within = [other_half(ur10, seed) for seed in range(20)]
     assert 0.9 <= np.mean(within) <= 0.99
     assert np.min(within) > 0.75
-
-
-def test_intervals_hold_where_postures_are_few(ur10):
-    """By how far the parameters are known, with the noise found in so few, 70 % would be within."""
     within = []
     for seed in range(8):
         real = Real(ur10, seed)

@@ -1,16 +1,28 @@
+"""Instruments and targets may be anywhere, and arms of any joints."""
+
 from functools import partial
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, BadMeasurement, Observations, initial_frames, load_arm
-from recalib.identification import OPEN, identify, turns_by_poses
+from recalib import (
+    JOINT_ERRORS,
+    OFFSETS,
+    BadMeasurement,
+    Distance,
+    Observations,
+    Row,
+    arm_of_table,
+    initial_frames,
+    load_arm,
+)
+from recalib.identification import BLOCKWISE, GEOMETRIC, OPEN, identify, turns_by_poses, validate
 from recalib.identification.closed_forms import _smallest
 from recalib.identification.initial_estimate import _is_open
-from recalib.identification.model import ErrorModel
-from tests.arms import GANTRY, SCARA
-from tests.identification.real import ARMS, Real, geometry_of
+from recalib.identification.model import HELD, NO_ERRORS, ErrorModel
+from tests.arms import GANTRY, SCARA, urdf
+from tests.identification.real import ARMS, Real, aligned, geometry_of
 
 
 @pytest.fixture(scope="module", params=ARMS)
@@ -75,7 +87,7 @@ def test_a_frame_that_is_known_stays_as_it_is(known, positions, arm):
     assert real.error(partial(model.predict, parameters)) < 5e-4
     found = model.found(parameters)
     assert np.array_equal(found.base, frame) or np.array_equal(found.targets[0], frame)
-    standing = model.standing(parameters, joints, model.terms(joints))
+    standing = model.standing(parameters, joints)
     ends = found.base @ model.own_arm(parameters).forward(standing) @ found.targets[0]
     np.testing.assert_allclose(ends, model.predict(parameters, joints), atol=1e-12)
 
@@ -87,12 +99,12 @@ def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_abou
     base[:3, :3], target[:3, :3] = turns[0].as_matrix(), turns[1].as_matrix()
     tool[:, :3, 3] = random.uniform(-1, 1, (12, 3))
 
-    def told(turned: Rotation) -> list[np.ndarray]:
-        tool[:, :3, :3] = turned.as_matrix()
+    def base_turns(tool_turns: Rotation) -> list[np.ndarray]:
+        tool[:, :3, :3] = tool_turns.as_matrix()
         return turns_by_poses(tool, Observations(np.zeros((12, 6)), base @ tool @ target))
 
-    np.testing.assert_allclose(told(turns), [base[:3, :3]], atol=1e-12)
-    assert told(Rotation.from_rotvec(random.uniform(-3, 3, (12, 1)) * [0, 0, 1])) == []
+    np.testing.assert_allclose(base_turns(turns), [base[:3, :3]], atol=1e-12)
+    assert base_turns(Rotation.from_rotvec(random.uniform(-3, 3, (12, 1)) * [0, 0, 1])) == []
 
 
 def test_positions_in_a_plane_tell_how_the_instrument_stands():
@@ -108,16 +120,12 @@ def test_positions_in_a_plane_tell_how_the_instrument_stands():
     assert np.abs(found - observations.positions).max() < 1e-3
 
 
-def test_positions_on_a_line_leave_open_how_the_instrument_stands_wherever_they_are():
+def test_positions_on_a_line_and_rotations_that_hardly_differ_tell_nothing():
     line = np.array([3, 0, -1]) + np.outer(np.linspace(0, 1, 20), [1, 2, 2])
     bent = line + np.outer(np.linspace(-1, 1, 20) ** 2, [0, 0.1, -0.1])
     for positions, is_open in ((line, True), (bent, False)):
         observations = Observations(np.zeros((20, 6)), positions)
         assert _is_open(np.tile(np.eye(4), (20, 1, 1)), observations, None) == is_open
-
-
-def test_rotations_that_hardly_differ_tell_nothing_however_many_there_are():
-    """Of n of them, the singular values grow as the root of n; what tells nothing stays zero."""
     for count in (5, 500):
         alike = np.random.default_rng(count).normal(size=(count, 3, 3))
         alike *= np.sqrt(2 * count) / np.linalg.svd(alike.reshape(-1, 3), compute_uv=False)[0]
@@ -129,3 +137,72 @@ def test_a_socket_beyond_the_known_ones_is_refused(panda):
     observations = Observations(np.zeros((3, 7)), sockets=np.zeros(3, dtype=int))
     with pytest.raises(BadMeasurement, match="socket of measurement 0"):
         identify(ErrorModel(panda, OFFSETS), observations)
+
+
+BALL, SOCKETS = np.array([0.02, -0.01, 0.12]), np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
+
+
+@pytest.mark.parametrize("text", [SCARA, GANTRY], ids=["SCARA", "gantry"])
+@pytest.mark.parametrize("what", ["poses", "positions"])
+def test_joints_that_slide_are_identified(text, what, load):
+    arm = load(text)
+    real = Real(arm, 1)
+    observations = real.observe(30, what == "positions")
+    model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
+    found = identify(model, observations)
+    assert found.converged
+    nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), observations)
+    after, before = (real.error(partial(model.predict, fit.parameters)) for fit in (found, nominal))
+    assert after < 4e-4 and before > 3 * after
+
+
+@pytest.mark.parametrize("slides", [False, True], ids=["turns", "slides"])
+def test_an_arm_of_one_joint_is_calibrated(slides):
+    arm = arm_of_table([Row("only", a=0.5, slides=slides)])
+    rng = np.random.default_rng(0)
+    joints = rng.uniform(-1, 1, (40, 1))
+    measured = arm.forward(joints + 0.02)[:, :3, 3] + rng.normal(0, 1e-4, (40, 3))
+    found = validate(arm, Observations(joints, measured))
+    assert found.chosen == GEOMETRIC
+    assert found.mean_error(BLOCKWISE, GEOMETRIC) < 3e-4
+
+
+def test_what_a_joint_or_an_arm_cannot_have_is_held_at_zero(load):
+    joints = [("turn", "revolute", "0 0 1", "0 0 1"), ("slide", "prismatic", "1 0 0", "0 0 0")]
+    for mass, gravity in ((0.0, True), (1.0, False)):
+        model = ErrorModel(load(urdf(*joints, mass=mass)), JOINT_ERRORS)
+        held = model.coefficients(model.deviations <= HELD)
+        assert held["offset"].tolist() == [False, False]
+        assert held["compliance"].tolist() == [gravity, True]
+        assert held["sine 1"].tolist() == held["cosine 1"].tolist() == [False, True]
+
+
+@pytest.fixture(scope="module")
+def balls(panda):
+    """Joints and sockets of a Panda, its error [m] before, and a function for that after."""
+    real = Real(panda, 1)
+    joints = np.concatenate([real.touching(BALL, socket, 40) for socket in SOCKETS])
+    fresh = real.postures(100)
+    tool, true = panda.forward(fresh), real.ball(BALL, fresh)
+
+    def after(observations):
+        found = geometry_of(panda, observations)
+        return aligned(found.predict(fresh)[:, :3, 3], true), found
+
+    before = aligned(tool[:, :3, 3] + tool[:, :3, :3] @ BALL, true)
+    return joints, np.repeat([0, 1], 40), before, after
+
+
+def test_a_ball_in_two_sockets_identifies_an_arm_without_any_instrument(balls):
+    joints, sockets, before, after = balls
+    error, found = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.3)]))
+    assert before > 20 * error
+    one, other = found.frames.sockets
+    assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=2e-4)
+    assert found.estimate.noise == pytest.approx([1e-4], rel=0.3)
+
+
+def test_the_known_distance_sets_the_scale(balls):
+    joints, sockets, _, after = balls
+    error, _ = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.303)]))
+    assert error > 1e-3

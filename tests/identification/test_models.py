@@ -17,8 +17,8 @@ from recalib import (
     orientation_error,
     position_error,
 )
-from recalib.identification import calibrate
-from recalib.identification.model import ErrorModel
+from recalib.identification import Identification, calibrate, parameters_of
+from recalib.identification.model import ErrorModel, Frames
 from tests.identification.test_estimation import noisy, postures
 
 EXACT = Disturbances(Noise(1e-5, 1e-4))
@@ -50,9 +50,8 @@ def test_where_geometry_alone_is_wrong_geometry_alone_is_used(robot, controller,
 def test_where_more_is_wrong_the_model_that_says_it_is_used(robot, controller):
     angles = postures(controller, 24)
     bent = apply(robot, [Sag(joint, 1e-4) for joint in robot.joints])
-    found = calibrate(
-        robot.arm, (OFFSETS, JOINT_ERRORS), Observations(angles, noisy(bent, angles, 1))
-    )
+    observations = Observations(angles, noisy(bent, angles, 1))
+    found = calibrate(robot.arm, (OFFSETS, JOINT_ERRORS), observations)
     assert len(found.model.names) == len(JOINT_ERRORS)
     compliance = found.model.coefficients(found.estimate.parameters)["compliance"]
     assert compliance[1:3] == pytest.approx([-1e-4] * 2, rel=0.1)
@@ -77,3 +76,39 @@ def test_what_no_term_explains_is_left_to_a_process_in_position_and_orientation(
         assert error(found.forward(asked), true).mean() < 0.3 * error(alone, true).mean()
     moved = found.forward(angles)[20] - arm.forward(angles)[20]
     assert np.abs(moved[:3, 3]).max() < 2e-3, "no pattern is learned from a doubted measurement"
+
+
+@pytest.fixture
+def calibration(robot) -> Calibration:
+    """An elbow off by 3 degrees, a base by 4 mm, and nothing else that is known for sure."""
+    model = ErrorModel(robot.arm, OFFSETS)
+    parameters = np.full(len(model.deviations), 1e-5)
+    parameters[0], parameters[model.offset_columns][2] = 4e-3, np.radians(3)
+    deviations = np.full(len(parameters), 1e-4)
+    estimate = Identification(
+        parameters, np.diag(deviations**2), np.array([2e-4]), np.array([1.0, 1.0, 0.0]), 0.0, True
+    )
+    return Calibration(model, estimate)
+
+
+def test_a_parameter_is_known_by_its_name_with_its_standard_error(calibration):
+    names = "offset of elbow_joint", "shift x of base"
+    parameters = parameters_of(calibration.model, calibration.estimate)
+    named = {parameter.name: parameter for parameter in parameters}
+    elbow, base = (named[name] for name in names)
+    assert (elbow.unit, base.unit) == ("deg", "mm")
+    assert (elbow.value, base.value) == pytest.approx((3, 4))
+    assert (elbow.deviation, base.deviation) == pytest.approx((np.degrees(1e-4), 0.1))
+
+
+def test_every_parameter_has_a_name_of_its_own(robot):
+    frames = Frames(targets=np.tile(np.eye(4), (2, 1, 1)), sockets=np.zeros((2, 3)))
+    model = ErrorModel(robot.arm, JOINT_WAVES, frames)
+    size = len(model.deviations)
+    estimate = Identification(np.zeros(size), np.eye(size), np.ones(1), np.ones(1), 0.0, True)
+    named = parameters_of(model, estimate, ("red", "blue"))
+    assert len({parameter.name for parameter in named}) == size
+    by_name = {parameter.name: parameter.unit for parameter in named}
+    assert by_name["turn z of target blue"] == "deg" and by_name["sine 3 of wrist_1_joint"] == "deg"
+    assert by_name["compliance of elbow_joint"] == "deg/Nm"
+    assert next(name for name in by_name if "socket 1" in name).startswith("x of socket 1")

@@ -41,17 +41,17 @@ def validation(ur10, real):
     return validate(ur10, observations, initial_frames(ur10, observations))
 
 
-def test_what_is_said_of_rows_held_out_holds_for_fresh_ones(real, validation):
+def test_what_is_said_holds_for_fresh_rows_and_one_grossly_off_does_not_count(real, validation):
     assert validation.chosen == GEOMETRIC
     errors = distances(validation.calibration, real.observe(200))
-    said = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
-    assert said.mean() == pytest.approx(errors.mean(), rel=0.2)
-    assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * said.mean()
+    reported = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
+    assert reported.mean() == pytest.approx(errors.mean(), rel=0.2)
+    assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * reported.mean()
     assert np.mean(errors <= validation.radius) >= 0.9
     assert 0.9 <= validation.coverage(RANDOM) <= 0.98
-
-
-def test_a_row_that_is_grossly_off_is_predicted_and_not_counted(validation):
+    for way in WAYS:
+        kinds = validation.held_out[way]
+        assert kinds[HYBRID] is kinds[GEOMETRIC]
     assert np.flatnonzero(~validation.counted) == [7]
     assert validation.full[GEOMETRIC].estimate.weights[7] < 0.01
     for way in WAYS:
@@ -59,14 +59,8 @@ def test_a_row_that_is_grossly_off_is_predicted_and_not_counted(validation):
             assert np.argmax(validation.errors(way, kind)[:, 0]) == 7
 
 
-def test_where_there_is_only_geometry_nothing_else_is_tried(validation):
-    for way in WAYS:
-        kinds = validation.held_out[way]
-        assert kinds[HYBRID] is kinds[GEOMETRIC]
-
-
 def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
-    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)  # what is chosen is asked here
+    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)  # the choice alone matters
     real = Real(ur10, 7)
     joints = real.postures(ROWS)
     observations = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))
@@ -74,11 +68,12 @@ def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
     found = validate(ur10, observations, frames)
     assert found.chosen == HYBRID and not found.unsettled
 
-    def stopped(*given):
-        geometry, *richer = calibrations(*given)
-        estimates = [replace(its.estimate, converged=False) for its in richer]
-        pairs = zip(richer, estimates, strict=True)
-        return [geometry, *(replace(its, estimate=estimate) for its, estimate in pairs)]
+    def unconverged(calibration):
+        return replace(calibration, estimate=replace(calibration.estimate, converged=False))
+
+    def stopped(*arguments):
+        geometry, *richer = calibrations(*arguments)
+        return [geometry, *map(unconverged, richer)]
 
     calibrations = module.calibrations
     monkeypatch.setattr(module, "calibrations", stopped)
@@ -115,15 +110,12 @@ def test_a_posture_is_held_out_with_all_its_targets_and_repetitions(divide):
     assert set(folds) == set(range(FOLDS))
 
 
-def test_a_joint_that_made_full_turns_alone_has_moved_and_one_that_slides_makes_none():
+def test_full_turns_alone_are_moves_and_paths_of_small_steps_many_postures():
     joints = np.array([[0.1, 0.2, 0.3], [0.1 + 2 * np.pi, 0.2, 0.3 + 2 * np.pi]])
     slides = np.array([False, False, True])
     assert find_postures(joints[:, :2], slides[:2], 1e-4).numbers.tolist() == [0, 0]
     found = find_postures(joints, slides, 1e-4)
     assert found.numbers.tolist() == [0, 1] and found.still.tolist() == [False, True, False]
-
-
-def test_a_path_of_small_steps_is_not_one_posture():
     path = np.linspace(0, 1, 1000)[:, None] * np.ones(6)  # half the way to the next is alike
     numbers = postures_of(path).numbers
     assert 100 < numbers.max() < 1000 and (np.diff(numbers) >= 0).all()
@@ -136,9 +128,6 @@ def test_a_target_that_was_seen_in_one_region_alone_is_learned_in_all_parts():
     folds = blocks(Observations(joints, joints[:, :3], targets), postures_of(joints))
     assert len(set(folds[targets == 1])) == FOLDS
     assert len(np.unique(folds[targets == 0].reshape(4, 8), axis=1).T) == 1
-
-
-def test_blocks_are_the_same_in_whatever_unit_a_joint_is():
     joints = np.random.default_rng(4).uniform(-1, 1, (40, 6))
     units = np.array([1024, 1, 1, 1 / 1024, 1, 1])  # powers of two, which round nothing
     here, there = (blocks(Observations(q, 0), postures_of(q)) for q in (joints, joints * units))
@@ -166,44 +155,30 @@ def test_an_arm_without_errors_is_left_alone(ur10, noise):
     assert np.allclose(found.calibration.forward(joints), ur10.forward(joints), atol=1e-6)
 
 
-@pytest.mark.parametrize("angle", [-1.2, 0.0, 0.35])
-def test_a_joint_may_stand_still_at_any_angle(ur10, angle):
-    real = Real(ur10, 8)
-    joints = real.postures(ROWS)
-    joints[:, 0] = angle
-    observations = Observations(joints, real.poses(joints))
-    found = validate(ur10, observations, initial_frames(ur10, observations))
-    assert found.postures.still.tolist() == [True, False, False, False, False, False]
-    offsets = found.calibration.model.coefficients(found.calibration.estimate.parameters)["offset"]
-    assert abs(offsets[0]) < 1e-9 < np.abs(offsets[1:]).min()
-    assert found.errors(RANDOM, found.chosen)[:, 0].mean() < 5e-4
-
-
 def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(ur10):
     real = Real(ur10, 5)
     observations = real.observe(30)
-    towards = real.random.standard_normal((30, 3))
-    towards *= 0.05 / np.linalg.norm(towards, axis=1, keepdims=True)
-    towards[11] *= 2  # too little for a lower weight
-    observations.measured[:, :3, 3] += towards
+    shifts = real.random.standard_normal((30, 3))
+    shifts *= 0.05 / np.linalg.norm(shifts, axis=1, keepdims=True)
+    shifts[11] *= 2  # too little for a lower weight
+    observations.measured[:, :3, 3] += shifts
     with pytest.raises(
         Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows 12, ([0-9]+, ){3}"
     ):
         validate(ur10, observations, initial_frames(ur10, observations))
 
 
-def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
+def test_a_turn_of_one_rad_counts_as_half_a_metre_and_the_worst_part_decides():
     residuals = np.array([[0.003, 0.0, 0.004, 0.0, 0.1, 0.0], [0.0, 0.0, 0.0, 0.02, 0.0, 0.0]])
     held = HeldOut(residuals, np.arange(2))
     assert held.errors == pytest.approx(np.array([[0.005, 0.1], [0, 0.02]]))
     assert held.losses == pytest.approx([0.055, 0.01])
     assert HeldOut(residuals[:, :3], held.folds).losses == pytest.approx([0.005, 0])
-
-
-def test_rows_of_one_posture_are_refused_as_such(ur10):
-    observations = Real(ur10, 6).observe(12)
-    with pytest.raises(Untrustworthy, match="12 rows of 1 posture; expected: at least 10 postures"):
-        validate(ur10, observations[np.zeros(12, dtype=int)])
+    errors, folds = np.tile(np.arange(100) + 1.0, 2), np.repeat([0, 1], 100)
+    errors[folds == 1] *= 3
+    held = HeldOut(errors[:, None] * [0.6, 0.8, 0.0], folds)
+    assert held.radius() == pytest.approx(3 * 96)
+    assert held.coverage() == pytest.approx((1.0 + 0.32) / 2)
 
 
 @pytest.mark.parametrize(("rows", "rank"), [(12, 12), (19, 19), (40, 39), (99, 95), (100, 96)])
@@ -212,14 +187,6 @@ def test_of_so_many_rows_the_least_that_covers_95_percent_of_others_is_taken(row
     errors = np.random.default_rng(1).permutation(rows) + 1.0
     held = HeldOut(errors[:, None] * [0.6, 0.8, 0.0], np.zeros(rows, dtype=int))
     assert held.radius() == pytest.approx(rank)
-
-
-def test_the_worst_part_decides_how_wide_intervals_are():
-    errors, folds = np.tile(np.arange(100) + 1.0, 2), np.repeat([0, 1], 100)
-    errors[folds == 1] *= 3
-    held = HeldOut(errors[:, None] * [0.6, 0.8, 0.0], folds)
-    assert held.radius() == pytest.approx(3 * 96)
-    assert held.coverage() == pytest.approx((1.0 + 0.32) / 2)
 
 
 @pytest.mark.parametrize(("rows", "seed"), [(10, 0), (11, 0), (13, 2), (13, 3)])

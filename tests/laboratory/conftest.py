@@ -1,11 +1,11 @@
-"""A small arm that is bent, what an instrument saw of it, and its calibration."""
+"""A small arm that is bent, measurements of it, and its calibration."""
 
 import csv
 
 import numpy as np
 import pytest
 
-from recalib import Chain, load_arm
+from recalib import Calibrated, Chain, calibrate_arm, load_arm
 from recalib.laboratory.command_line import DONE, main
 from tests.arms import urdf
 
@@ -18,13 +18,19 @@ ARM = urdf(
     ("elbow", "revolute", "0 1 0", "0.4 0 0"),
     ("flange", "fixed", "0 0 1", "0.35 0 0.02"),
 )
-SEEN = np.array([0.9, 0.5, 0.6])  # rad about the middle
+RANGE = np.array([0.9, 0.5, 0.6])  # rad about the middle
 MIDDLE = np.array([0.0, -0.7, 1.1])
 
 
 def true_positions(arm, joints: np.ndarray) -> np.ndarray:
     """Where the bent arm goes [m]."""
     return arm.forward(joints + OFFSETS)[:, :3, 3]
+
+
+def measured(arm, joints: np.ndarray, seed: int = 4) -> np.ndarray:
+    """The same as an instrument in the arm's base sees it."""
+    noise = np.random.default_rng(seed).standard_normal((len(joints), 3))
+    return true_positions(arm, joints) + NOISE * noise
 
 
 def to_instrument(positions: np.ndarray) -> np.ndarray:
@@ -51,9 +57,20 @@ def table(arm, joints: np.ndarray, positions: np.ndarray) -> dict[str, np.ndarra
     return in_degrees(arm, joints) | in_millimetres(positions)
 
 
+def calibrated_by(arm, folder, joints, positions, *description) -> Calibrated:
+    """The calibration by a table of these rows."""
+    write(folder / "rows.csv", table(arm, joints, positions))
+    return calibrate_arm(folder / "arm.urdf", folder / "rows.csv", *description)
+
+
+def angles_in(columns: dict[str, np.ndarray], arm) -> np.ndarray:
+    """Joint angles (n, 3) [rad] of a table."""
+    return np.radians([columns[f"{joint} [deg]"] for joint in arm.joints]).T
+
+
 def postures(seed: int, count: int = ROWS, part: float = 1.0) -> np.ndarray:
-    """Joint angles (count, 3) [rad] in this part of what is seen."""
-    return MIDDLE + part * SEEN * np.random.default_rng(seed).uniform(-1, 1, (count, 3))
+    """Joint angles (count, 3) [rad] in this part of the measured ranges."""
+    return MIDDLE + part * RANGE * np.random.default_rng(seed).uniform(-1, 1, (count, 3))
 
 
 def read(path) -> dict[str, np.ndarray]:
@@ -76,9 +93,9 @@ def arm(folder):
 
 @pytest.fixture(scope="session")
 def calibrated(arm, folder):
-    """By the command line, from where a camera somewhere sees a target somewhere on the tool."""
+    """By the command line; neither the camera's place nor the target's on the tool is known."""
     random = np.random.default_rng(8)
-    joints = MIDDLE + SEEN * random.uniform(-1, 1, (ROWS, 3))
+    joints = MIDDLE + RANGE * random.uniform(-1, 1, (ROWS, 3))
     positions = true_positions(arm, joints) + NOISE * random.standard_normal((ROWS, 3))
     write(folder / "measurements.csv", table(arm, joints, to_instrument(positions)))
     files = folder / "arm.urdf", folder / "measurements.csv"
@@ -97,8 +114,8 @@ def in_sockets(folder):
     centres = {"left": [0.45, -0.15, 0.3], "right": [0.45, 0.15, 0.3]}
     poses = arm.forward(joints)
     poses[:, :3, 3] = [centres[name] for name in names]
-    joints, left = Chain.of(arm).solve(poses, joints)
-    assert left.max() < 1e-9
+    joints, errors = Chain.of(arm).solve(poses, joints)
+    assert errors.max() < 1e-9
     joints[:, 3] -= 0.02
     write(folder / "sockets.csv", in_degrees(arm, joints) | {"socket": names})
     return folder / "sockets.csv"

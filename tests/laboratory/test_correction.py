@@ -40,8 +40,8 @@ def correction():
     arm = load_arm("panda.urdf", "panda_hand_tcp")
     joints = HOME + np.random.default_rng(6).uniform(-0.6, 0.6, (60, 7))
     bent = joints + 0.01 + 0.004 * np.sin(joints)
-    seen = Observations(joints, arm.forward(bent))
-    calibration = calibrate(arm, (OFFSETS, JOINT_ERRORS), seen)
+    observations = Observations(joints, arm.forward(bent))
+    calibration = calibrate(arm, (OFFSETS, JOINT_ERRORS), observations)
     return Correction(find_urdf("panda.urdf").read_bytes(), calibration, joints)
 
 
@@ -57,11 +57,11 @@ def test_a_urdf_may_be_in_another_encoding(correction, tmp_path):
 def test_a_redundant_arm_stays_near_the_posture_that_is_given(correction):
     joints = HOME + np.random.default_rng(7).uniform(-0.4, 0.4, (10, 7))
     goals = correction.calibration.forward(joints)
-    beside = joints + np.random.default_rng(8).uniform(-0.05, 0.05, joints.shape)
-    commands = correction.correct(goals, beside, frame="base")
+    nearby = joints + np.random.default_rng(8).uniform(-0.05, 0.05, joints.shape)
+    commands = correction.correct(goals, nearby, frame="base")
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - goals).max() < 1e-7
-    assert np.abs(commands.joints - beside).max() < 0.1
+    assert np.abs(commands.joints - nearby).max() < 0.1
     assert np.array_equal(commands.poses, correction.arm.forward(commands.joints))
 
 
@@ -69,8 +69,8 @@ def test_postures_from_which_the_arm_approaches_are_in_the_frame_given(correctio
     """A target 120 mm ahead of the tool link is then nearly where the link is desired."""
     arm, joints, target, ahead = correction.arm, correction.learned, np.eye(4), np.eye(4)
     target[2, 3], ahead[2, 3] = 0.12, 0.1
-    seen = Observations(joints, arm.forward(joints + 0.01) @ target)
-    calibration = calibrate(arm, (OFFSETS,), seen, Frames(np.eye(4), target[None]))
+    observations = Observations(joints, arm.forward(joints + 0.01) @ target)
+    calibration = calibrate(arm, (OFFSETS,), observations, Frames(np.eye(4), target[None]))
     before = joints[:10]
     goals = calibration.forward(before) @ ahead
     ahead_of_tool = replace(correction, calibration=calibration)
@@ -78,7 +78,7 @@ def test_postures_from_which_the_arm_approaches_are_in_the_frame_given(correctio
     assert np.abs(calibration.forward(commands.joints) - goals).max() < 1e-7
 
 
-def test_one_pose_will_do(correction):
+def test_one_pose_will_do_and_is_reached_from_what_was_learned(correction):
     goal = correction.arm.forward(HOME[None])[0]
     commands = correction.correct(goal, HOME, frame="base")
     reached = correction.calibration.forward(commands.joints)
@@ -86,9 +86,6 @@ def test_one_pose_will_do(correction):
     assert not np.allclose(commands.joints, HOME, atol=1e-3)
     in_loop = correction.command(goal, HOME, frame="base")
     assert np.array_equal(in_loop, commands.joints[0])
-
-
-def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     goals = correction.calibration.forward(correction.learned[:5] + 0.02)
     commands = correction.correct(goals, frame="base")
     reached = correction.calibration.forward(commands.joints)
@@ -120,32 +117,16 @@ def test_the_distance_to_a_pose_out_of_reach_is_reported(correction, frame):
 @pytest.mark.parametrize(
     ("poses", "options", "message"),
     [
-        (
-            np.zeros((3, 7)),
-            {},
-            r"poses is 'of shape \(3, 7\)'; expected: an array of .* \(n, 4, 4\)",
-        ),
+        (np.zeros((3, 7)), {}, r"poses is 'of shape \(3, 7\)'; expected: an array of .* \(n, 4, 4"),
         (np.full(3, np.nan), {}, "poses is 'NaN or infinity in places'"),
         ("far", {}, "poses is 'str'; expected: an array of finite numbers"),
-        (
-            np.zeros((4, 4)),
-            {},
-            "poses is 'matrices of something else'; expected: poses: a rotation",
-        ),
+        (np.zeros((4, 4)), {}, "poses is 'matrices of something else'; expected: poses: a rotatio"),
         (np.diag([1.0, 1.0, -1.0, 1.0]), {}, "matrices of something else"),
         (np.zeros(3), {"near": np.zeros(6)}, r"near is 'of shape \(6,\)'; expected: .* \(1, 7\)"),
         (np.zeros(3), {"frame": "camera"}, "unknown frame 'camera'"),
         (np.zeros(3), {"target": "ball"}, "unknown target 'ball'"),
-        (
-            np.zeros(3),
-            {"target": "the target", "frame": "base"},
-            "frame is 'base'; expected: instr",
-        ),
-        (
-            np.zeros((3, 3)),
-            {"target": ["the target"] * 2},
-            "target is '2 names'; expected: one, or 3",
-        ),
+        (np.zeros(3), {"target": "the target", "frame": "base"}, "frame is 'base'; expected: inst"),
+        (np.zeros((3, 3)), {"target": ["the target"] * 2}, "target is '2 names'; expected: one, o"),
     ],
 )
 def test_wrong_arrays_are_refused_with_what_was_expected(poses, options, message, correction):
@@ -166,22 +147,19 @@ def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correctio
     assert commands.beyond[:, 2] == pytest.approx([0, away, 0, away], rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("name", "change"),
-    [
-        ("calibration/terms", lambda its: its[:-1]),
-        ("calibration/estimate/noise", lambda its: np.nan * its),
-        ("learned", lambda its: its > 0),
-        ("calibration/frames/sights", lambda its: its[:0]),
-        ("calibration/frames/sights", lambda its: its + 1),
-        ("calibration/frames/sights", lambda its: its - 1),
-        ("calibration/frames/sights", lambda its: 1.0 * its),
-    ],
-    ids=[
-        *("another error model", "no number", "no angles", "no sight", "another target"),
-        *("a target below zero", "a target without a number"),
-    ],
-)
+SIGHTS = "calibration/frames/sights"
+WRONG_PARTS = {  # a part of the file, and how it is changed
+    "another error model": ("calibration/terms", lambda values: values[:-1]),
+    "no number": ("calibration/estimate/noise", lambda values: np.nan * values),
+    "no angles": ("learned", lambda values: values > 0),
+    "no sight": (SIGHTS, lambda values: values[:0]),
+    "another target": (SIGHTS, lambda values: values + 1),
+    "a target below zero": (SIGHTS, lambda values: values - 1),
+    "a target without a number": (SIGHTS, lambda values: 1.0 * values),
+}
+
+
+@pytest.mark.parametrize(("name", "change"), WRONG_PARTS.values(), ids=WRONG_PARTS)
 def test_parts_that_do_not_belong_together_are_refused(name, change, small, tmp_path):
     path = tmp_path / "correction.npz"
     path.write_bytes(small)
@@ -203,7 +181,7 @@ def test_a_file_that_was_tampered_with_ends_in_a_sentence(small, data):
         path = Path(folder) / "correction.npz"
         path.write_bytes(small)
         spoil(data.draw, path)
-        (Path(folder) / "desired.csv").write_text("swing [deg],lift [deg],elbow [deg]\n0,-40,60\n")
+        (Path(folder) / "rows.csv").write_text("swing [deg],lift [deg],elbow [deg]\n0,-40,60\n")
         for command in (
             ["correct", folder, f"{folder}/desired.csv"],
             ["next", folder, "--count=2"],
@@ -214,10 +192,10 @@ def test_a_file_that_was_tampered_with_ends_in_a_sentence(small, data):
 
 @pytest.fixture(scope="module")
 def small(arm, folder):
-    """The file of a correction of a small arm, with a pattern in what is left."""
+    """The file of a correction of a small arm, with a pattern in the residuals."""
     joints = postures(3, 60)
-    seen = Observations(joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints)))
-    calibration = calibrate(arm, (OFFSETS,), seen)
+    observations = Observations(joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints)))
+    calibration = calibrate(arm, (OFFSETS,), observations)
     assert calibration.pattern is not None
     urdf = (folder / "arm.urdf").read_bytes()
     Correction(urdf, calibration, joints).save(folder / "small.npz")

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from recalib import load_arm
-from recalib.laboratory.calibrate import calibrate, calibrate_arm
+from recalib import calibrate, calibrate_arm, load_arm
 from recalib.laboratory.command_line import DONE, main
 from tests.arms import urdf
 from tests.laboratory.conftest import read, write
@@ -32,10 +31,10 @@ def test_one_column_moves_both_sections(tmp_path):
     def true(columns):
         return bent.forward(arm.coupling.joints(columns) + errors)[:, :3, 3]
 
-    seen = true(columns) + rng.normal(scale=5e-5, size=(ROWS, 3))
+    measured = true(columns) + rng.normal(scale=5e-5, size=(ROWS, 3))
     names = "lift [mm]", "turn [deg]", "yaw [deg]"
     cells = dict(zip(names, (columns * [1e3, 180 / np.pi, 180 / np.pi]).T, strict=True))
-    cells |= {f"{axis} [m]": seen[:, index] for index, axis in enumerate("xyz")}
+    cells |= {f"{axis} [m]": measured[:, index] for index, axis in enumerate("xyz")}
     write(tmp_path / "rows.csv", cells)
     files = [str(tmp_path / name) for name in ("lift.urdf", "rows.csv")]
     assert main(["calibrate", *files, f"--out={tmp_path / 'out'}"]) == DONE
@@ -43,16 +42,15 @@ def test_one_column_moves_both_sections(tmp_path):
     desired = {f"{axis} [m]": true(fresh)[:, index] for index, axis in enumerate("xyz")}
     write(tmp_path / "desired.csv", desired)
     out = tmp_path / "commands.csv"
-    assert (
-        main(["correct", str(tmp_path / "out"), f"{tmp_path}/desired.csv", f"--out={out}"]) == DONE
-    )
-    sent = read(out)
-    commands = np.array([sent[name] for name in ("lift [mm]", "turn [deg]", "joint yaw [deg]")]).T
+    given = [str(tmp_path / "out"), f"{tmp_path}/desired.csv"]
+    assert main(["correct", *given, f"--out={out}"]) == DONE
+    cells = read(out)
+    commands = np.array([cells[name] for name in ("lift [mm]", "turn [deg]", "joint yaw [deg]")]).T
     reached = true(commands / [1e3, 180 / np.pi, 180 / np.pi])
     assert np.linalg.norm(reached - true(fresh), axis=1).max() < 2e-4
     arguments = ["next", str(tmp_path / "out"), "--count=3", f"--out={tmp_path / 'next.csv'}"]
     assert main(arguments) == DONE
     assert [*read(tmp_path / "next.csv")][:3] == ["lift [mm]", "turn [deg]", "joint yaw [deg]"]
-    result, table = calibrate(arm, columns, seen), calibrate_arm(*files)
+    result, table = calibrate(arm, columns, measured), calibrate_arm(*files)
     assert np.allclose(result.predict(fresh), table.predict(fresh), atol=1e-9)
     assert np.abs(result.predict(fresh)[:, :3, 3] - true(fresh)).max() < 2e-4

@@ -42,6 +42,9 @@ def test_units_become_metres_and_radians_and_columns_stand_in_any_order(gantry, 
     assert np.allclose(read.joints[-1], [1.5, np.pi / 2])
     assert np.allclose(read.positions[-1], 0.002)
     assert read.columns.keys() == {"positions"}
+    times = [0, 0, 1, 1, *range(2, ROWS - 2)]
+    table = write(joints() | positions() | {"time [s]": times})
+    assert read_measurements(table, gantry).columns["times"] == pytest.approx(times)
 
 
 def test_a_table_that_was_pasted_twice_is_refused_and_a_row_that_repeats_is_not(gantry, write):
@@ -63,30 +66,25 @@ def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
     ):
         cells = ([number] * ROWS for number in numbers)
         columns = joints() | positions() | dict(zip(names, cells, strict=True))
-        assert np.allclose(
-            read_measurements(write(columns), gantry).measured[:, :3, :3], turn.as_matrix()
-        )
+        read = read_measurements(write(columns), gantry)
+        assert np.allclose(read.measured[:, :3, :3], turn.as_matrix())
 
 
-def test_targets_and_sockets_are_named(gantry, write):
+def test_targets_and_sockets_are_named_also_in_what_is_desired(gantry, write):
     names = ["left", "right"] * (ROWS // 2)
     read = read_measurements(write(joints() | {"socket": names, "target": names}), gantry)
-    assert [*read.columns["sockets"]] == [
-        *read.columns["targets"]
-    ] == names and read.positions is None
-
-
-def test_a_measured_table_may_be_desired_in_the_frame_in_which_it_was_measured(gantry, write):
+    assert [*read.columns["sockets"]] == [*read.columns["targets"]] == names
+    assert read.positions is None
     names = {"target": ["board"] * ROWS, "picture": ["a.png"] * ROWS}
     read = read_desired(write(joints() | positions() | names), gantry, target=True)
     assert [*read.columns["targets"]] == names["target"] and np.allclose(read.positions[-1], 0.002)
 
 
 def test_what_was_measured_at_commands_may_stand_beside_their_fake_poses(gantry, write):
-    beside = write(joints() | positions() | {f"{axis}_fake [mm]": [1.0] * ROWS for axis in "xyz"})
-    assert np.allclose(read_measurements(beside, gantry).positions[-1], 0.002)
+    path = write(joints() | positions() | {f"{axis}_fake [mm]": [1.0] * ROWS for axis in "xyz"})
+    assert np.allclose(read_measurements(path, gantry).positions[-1], 0.002)
     with pytest.raises(InvalidFile, match="its commands are corrected already"):
-        read_desired(beside, gantry)
+        read_desired(path, gantry)
 
 
 def test_what_is_no_text_is_refused(gantry, tmp_path):
@@ -120,35 +118,30 @@ length = "250 mm"
 def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
     path = tmp_path / "description.toml"
     path.write_text(DESCRIPTION)
-    said = read_description(path)
-    assert np.allclose(said.instrument[:3], np.eye(3, 4) + [[0, 0, 0, x] for x in (1, -0.02, 7e-5)])
-    angles = Rotation.from_matrix(said.target[:3, :3]).as_euler("xyz")
+    description = read_description(path)
+    shifts = [[0, 0, 0, shift] for shift in (1, -0.02, 7e-5)]
+    assert np.allclose(description.instrument[:3], np.eye(3, 4) + shifts)
+    angles = Rotation.from_matrix(description.target[:3, :3]).as_euler("xyz")
     assert np.allclose(angles, [np.radians(10), -0.2, np.radians(30)])
-    assert np.array_equal(said.target[:3, 3], np.zeros(3))
-    assert said.distances == {("left", "right"): 0.25}
+    assert np.array_equal(description.target[:3, 3], np.zeros(3))
+    assert description.distances == {("left", "right"): 0.25}
     columns = dict(zip(("j1", "j2"), joints().values(), strict=True)) | {"step": range(ROWS)}
     columns |= {f"{axis}_t": range(ROWS) for axis in "xyz"}
     columns |= {f"{axis}_dif": [1] * ROWS for axis in "xyz"}
-    read = read_measurements(write(columns), gantry, said)
+    read = read_measurements(write(columns), gantry, description)
     assert np.allclose(read.joints[-1], [1.5, np.pi / 2])
     assert np.allclose(read.columns["nominal"], 1e-3 * np.arange(ROWS)[:, None])
     assert np.allclose(read.positions - read.columns["nominal"], 0.001)
     columns["j1"] = ["far"] * ROWS
     with pytest.raises(InvalidFile, match="row 1 of column 'j1' is 'far'"):
-        read_measurements(write(columns), gantry, said)
+        read_measurements(write(columns), gantry, description)
     every = Description(dict.fromkeys(columns, "ignored"))
     with pytest.raises(InvalidFile, match="its description ignores every column"):
         read_measurements(write(columns), gantry, every)
 
 
-def test_rows_of_one_time_may_come_before_others(gantry, write):
-    times = [0, 0, 1, 1, *range(2, ROWS - 2)]
-    table = write(joints() | positions() | {"time [s]": times})
-    assert read_measurements(table, gantry).columns["times"] == pytest.approx(times)
-
-
 @pytest.mark.parametrize(
-    ("column", "cells", "began"),
+    ("column", "cells", "start"),
     [
         ("time [s]", [f"{1.5 * row}" for row in range(ROWS)], 0),
         ("time [ms]", [1500 * row for row in range(ROWS)], 0),
@@ -156,8 +149,7 @@ def test_rows_of_one_time_may_come_before_others(gantry, write):
         ("time", [f"2026-11-23 08:00:{1.5 * row:06.3f}+01:00" for row in range(ROWS)], 1795417200),
     ],
 )
-def test_times_are_seconds_or_dates(column, cells, began, gantry, write):
-    times = read_measurements(write(joints() | positions() | {column: cells}), gantry).columns[
-        "times"
-    ]
-    assert np.allclose(times, began + 1.5 * np.arange(ROWS), rtol=0, atol=1e-6)
+def test_times_are_seconds_or_dates(column, cells, start, gantry, write):
+    read = read_measurements(write(joints() | positions() | {column: cells}), gantry)
+    times = read.columns["times"]
+    assert np.allclose(times, start + 1.5 * np.arange(ROWS), rtol=0, atol=1e-6)

@@ -1,4 +1,4 @@
-"""A mistake on the command line is told in one sentence, and nothing is made of it."""
+"""A mistake on the command line is refused in one sentence, and nothing is written."""
 
 import re
 import shlex
@@ -25,8 +25,8 @@ def right(arm, calibrated, tmp_path_factory):
     return here
 
 
-def said_of(row, folder, capfd) -> list[str]:
-    """What is said on stderr, also by compiled code, without progress and usage."""
+def messages_of(row, folder, capfd) -> list[str]:
+    """Lines on stderr, also those of compiled code, without progress and usage."""
     lines = "\n".join(row.get("lines", ()))
     for name, text in KNOWN.items():
         lines = lines.replace(name, text)
@@ -37,8 +37,8 @@ def said_of(row, folder, capfd) -> list[str]:
         words += ["--out", "new"]  # what it would write is there already
     try:
         code = main(words)
-    except SystemExit as ended:  # argparse's
-        code = ended.code
+    except SystemExit as stopped:  # argparse's
+        code = stopped.code
     assert code == REFUSED
     lines = capfd.readouterr().err.splitlines()
     return [line for line in lines if not line.startswith("... ")]
@@ -54,8 +54,8 @@ def test_a_mistake_is_told_in_one_sentence(row, right, tmp_path, monkeypatch, ca
         pytest.importorskip("cv2", reason="needs OpenCV, of the extra vision")
     here = shutil.copytree(right, tmp_path / "here")
     monkeypatch.chdir(here)
-    (said,) = said_of(row, here, capfd)
+    (message,) = messages_of(row, here, capfd)
     expected = map(re.escape, row["says"].split("..."))
-    assert re.fullmatch(".*".join(expected), said), said
+    assert re.fullmatch(".*".join(expected), message), message
     written = {path.name for path in here.iterdir()} - {row.get("file")}
     assert written == {path.name for path in right.iterdir()}

@@ -13,10 +13,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from recalib import InvalidFile
+from recalib import InvalidFile, calibrate_arm
 from recalib.files import write_new
 from recalib.laboratory import commands
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 
 LINKS = "joint,a [mm],alpha [deg],d [mm],theta [deg]\nwaist,0,-90,412,0\nboom,300,0,0,0\n"
@@ -38,7 +37,11 @@ def laboratory(calibrated, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(commands, "calibrate_arm", lambda *_: result)
         load, page = commands._load, lambda _: b"a page"
-        patch.setattr(commands, "_load", lambda *its: page if "page_of" in its else load(*its))
+        patch.setattr(
+            commands,
+            "_load",
+            lambda module, name: page if name == "page_of" else load(module, name),
+        )
         assert run(folder, "calibrate", "arm.urdf", "rows.csv")[0] == DONE
         yield folder
 
@@ -69,17 +72,19 @@ COMMANDS = {
 }
 
 
-def test_an_empty_folder_will_do_and_parents_are_made(tmp_path):
+def test_an_empty_folder_will_do_and_what_the_disk_gives_back_is_compared(tmp_path, monkeypatch):
     (tmp_path / "empty").mkdir()
     for out in (tmp_path / "empty", tmp_path / "a" / "b"):
         write_new(out, TWO)
         assert content(out) == TWO
     assert {path.name for path in tmp_path.iterdir()} == {"empty", "a"}
+    monkeypatch.setattr(Path, "read_bytes", lambda path: b"other")
+    with pytest.raises(InvalidFile, match=r"one\.txt: the disk gives back something else"):
+        write_new(tmp_path / "out", TWO)
 
 
-NAME = st.sampled_from(
-    [*INPUTS, "arm.urdf", "calibration", "notes.txt", ".hidden", "ä b", "commands.csv"]
-)
+OTHERS = "calibration", "notes.txt", ".hidden", "ä b", "commands.csv"
+NAME = st.sampled_from([*INPUTS, *OTHERS])
 ENTRY = st.one_of(
     st.tuples(st.just("file"), st.binary(max_size=4)),
     st.tuples(st.just("link"), NAME),
@@ -162,9 +167,3 @@ def test_on_a_full_disk_the_file_is_named_and_nothing_stays(laboratory, tmp_path
         last = printed.splitlines()[-1]
         assert code == REFUSED and re.search(r"out\S*: it cannot be written: File too large", last)
         assert not [*tmp_path.iterdir()]
-
-
-def test_a_disk_that_gives_back_something_else_is_noticed(tmp_path, monkeypatch):
-    monkeypatch.setattr(Path, "read_bytes", lambda path: b"other")
-    with pytest.raises(InvalidFile, match=r"one\.txt: the disk gives back something else"):
-        write_new(tmp_path / "out", TWO)

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, Calibration, Observations, initial_frames, load_arm
+from recalib import OFFSETS, Calibration, Observations, calibrate_arm, initial_frames, load_arm
 from recalib.files import write_new
 from recalib.identification import HYBRID, identify
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.model import ErrorModel, displacements
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.places import found_places
 from recalib.laboratory.report.folder import files_of
 from tests.arms import INDUSTRIAL
@@ -38,11 +37,11 @@ def test_places_are_known_as_well_as_other_noise_moves_them(arm, load, positions
     joints = real.postures(40)
     for _ in range(DRAWS):
         poses = real.poses(joints)
-        seen = Observations(joints, poses[:, :3, 3] if positions else poses)
-        guess = guess or initial_frames(arm, seen)
+        observations = Observations(joints, poses[:, :3, 3] if positions else poses)
+        guess = guess or initial_frames(arm, observations)
         model = ErrorModel(arm, OFFSETS, guess)
-        calibration = Calibration(model, identify(model, seen))
-        unidentifiable = unidentifiable or unidentifiable_parameters(calibration, seen)
+        calibration = Calibration(model, identify(model, observations))
+        unidentifiable = unidentifiable or unidentifiable_parameters(calibration, observations)
         drawn.append(found_places(calibration, unidentifiable, ["the target"], [], arm.tool))
     for found, truth in zip(
         zip(*drawn, strict=True), [np.linalg.inv(real.base), real.targets[0]], strict=True
@@ -82,24 +81,29 @@ def calibrated(arm, tmp_path_factory):
 
 def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     result, folder = calibrated
-    told = json.loads((folder / "parameters.json").read_text())
-    assert told["fit"] == "geometry, as in arm.urdf"
-    seen = result.data.observations
-    poses = load_arm(folder / "arm.urdf", told["tool"], told["base"]).forward(seen.joints)
-    targets = np.array(list(told["targets_in_tool"].values()))[seen.targets]
-    there = np.array(told["base_in_instrument"]) @ poses @ targets
-    assert np.abs(there - result.geometry.predict(seen.joints, seen.targets)).max() < 1e-9
+    values = json.loads((folder / "parameters.json").read_text())
+    assert values["fit"] == "geometry, as in arm.urdf"
+    observations = result.data.observations
+    arm = load_arm(folder / "arm.urdf", values["tool"], values["base"])
+    targets = np.array(list(values["targets_in_tool"].values()))[observations.targets]
+    poses = np.array(values["base_in_instrument"]) @ arm.forward(observations.joints) @ targets
+    predicted = result.geometry.predict(observations.joints, observations.targets)
+    assert np.abs(poses - predicted).max() < 1e-9
     rows = read_places(folder)
     assert [(row["frame"], row["in"]) for row in rows] == [
-        ("the instrument", told["base"]),
-        ("target left", told["tool"]),
-        ("target right", told["tool"]),
+        ("the instrument", values["base"]),
+        ("target left", values["tool"]),
+        ("target right", values["tool"]),
     ]
-    assert rows == [{k: str(v) for k, v in row.items()} for row in told["frames"]]
+    assert rows == [{k: str(v) for k, v in row.items()} for row in values["frames"]]
     instrument, left, _ = ([float(row[f"{axis} [mm]"]) for axis in "xyz"] for row in rows)
-    base = np.linalg.inv(told["base_in_instrument"])
+    base = np.linalg.inv(values["base_in_instrument"])
     assert np.allclose(instrument, 1e3 * base[:3, 3], atol=0.01)
-    assert np.allclose(left, 1e3 * np.array(told["targets_in_tool"]["left"])[:3, 3], atol=0.01)
+    assert np.allclose(left, 1e3 * np.array(values["targets_in_tool"]["left"])[:3, 3], atol=0.01)
+    instrument, left, _ = read_places(calibrated[1])
+    assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
+    deviation, real_deviation = "deviation [mm]", "deviation relative to the real link [mm]"
+    assert 0 < float(left[deviation]) < 1 < float(left[real_deviation])
 
 
 def read_places(folder: Path) -> list[dict[str, str]]:
@@ -107,27 +111,16 @@ def read_places(folder: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
-def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibrated):
-    instrument, left, _ = read_places(calibrated[1])
-    assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
-    assert (
-        0
-        < float(left["deviation [mm]"])
-        < 1
-        < float(left["deviation relative to the real link [mm]"])
-    )
-
-
 @few_folds()
 def test_an_arm_that_is_left_alone_may_have_an_offset_that_nothing_tells(arm, tmp_path):
     real, turned = Real(arm, 3), np.eye(4)
     joints = real.postures(40)
     turned[:3, :3] = Rotation.from_euler("z", 0.5, degrees=True).as_matrix()
-    seen = (real.base @ turned @ arm.forward(joints))[:, :3, 3] + real.random.normal(
+    positions = (real.base @ turned @ arm.forward(joints))[:, :3, 3] + real.random.normal(
         scale=5e-5, size=(40, 3)
     )
     columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
-    columns |= {f"{axis} [m]": seen[:, index] for index, axis in enumerate("xyz")}
+    columns |= {f"{axis} [m]": positions[:, index] for index, axis in enumerate("xyz")}
     write(tmp_path / "m.csv", columns)
     result = calibrate_arm(URDF, tmp_path / "m.csv", tool=TOOL)
     instrument, _ = result.places

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, load_arm, load_correction
-from recalib.laboratory.calibrate import calibrate, calibrate_arm
+from recalib import InvalidFile, calibrate, calibrate_arm, load_arm, load_correction
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report import folder as report
+from recalib.laboratory.report.page import draw_arm, draw_errors, draw_over_joints
 from recalib.laboratory.report.recording import recording_of
 from recalib.laboratory.report.summary import errors_table
 from tests.arms import urdf
@@ -44,9 +44,8 @@ def lab(tmp_path_factory):
     joints = rng.uniform(-0.9, 0.9, (ROWS, 4)) * [1.0, 0.8, 0.2, 1.1] + [0.1, -0.3, 0.4, 0.2]
     joints[:, 3] = np.where(np.arange(ROWS) % 7 == 2, joints[::-1, 3], joints[:, 3])
     clock = np.cumsum(rng.uniform(0.3, 2.0, ROWS))
-    columns = {
-        name: column for name, column in in_degrees(arm, joints).items() if "reach" not in name
-    }
+    columns = in_degrees(arm, joints)
+    del columns["reach [deg]"]
     columns["reach [cm]"] = 100 * joints[:, 2]
     poses = real.poses(joints)
     poses[6, :3, 3] += 0.02
@@ -73,8 +72,8 @@ def lab(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def made(lab):
-    """A calibration by name, made when it is asked for."""
+def calibration_of(lab):
+    """A calibration by name, computed at its first use."""
     arguments = {
         "poses": (lab / "sliding.urdf", lab / "poses.csv", lab / "poses.toml"),
         "targets": (lab / "sliding.urdf", lab / "targets.csv"),
@@ -82,9 +81,9 @@ def made(lab):
     return cache(lambda name: calibrate_arm(*arguments[name]))
 
 
-def test_the_summary_says_what_was_gained_what_is_doubted_and_what_is_open(made):
+def test_the_summary_says_what_was_gained_what_is_doubted_and_what_is_open(calibration_of):
     """An arm that is off by 3 mm, of which gears leave half a millimetre, with 0.02 m in row 7."""
-    _, first, *others = made("poses").summary().splitlines()
+    _, first, *others = calibration_of("poses").summary().splitlines()
     before, after = map(float, re.search(r"falls from ([\d.]+) mm to ([\d.]+) mm", first).groups())
     assert 2 < before < 4 and 0.3 < after < 0.8
     assert first.endswith("1 of 26 rows left out as outliers.")
@@ -95,8 +94,8 @@ def test_the_summary_says_what_was_gained_what_is_doubted_and_what_is_open(made)
 
 
 @pytest.mark.parametrize("name", ["poses", "targets"])
-def test_files_hold_what_the_result_says(name, made):
-    result = made(name)
+def test_files_hold_what_the_result_says(name, calibration_of):
+    result = calibration_of(name)
     files = report.files_of(result)
     assert [*files] == [
         *("summary.txt", "arm.urdf", "correction.npz", "parameters.json", "frames.csv", "rows.csv")
@@ -116,23 +115,23 @@ def test_files_hold_what_the_result_says(name, made):
 
 
 @pytest.mark.parametrize("name", ["arm.urdf", "correction.npz"])
-def test_a_file_that_is_read_back_as_another_arm_is_not_written(name, made, monkeypatch):
-    result = made("targets")
-    other = made("poses")
+def test_a_file_that_is_read_back_as_another_arm_is_not_written(name, calibration_of, monkeypatch):
+    result = calibration_of("targets")
+    other = calibration_of("poses")
     if name == "arm.urdf":
         monkeypatch.setitem(vars(result), "corrected", other.corrected)
     else:
         content = other.correction.archive()
-        monkeypatch.setattr(type(result.correction), "archive", lambda its: content)
+        monkeypatch.setattr(type(result.correction), "archive", lambda _: content)
     with pytest.raises(InvalidFile, match=f"{name}: read back, its forward kinematics are .* off"):
         report.files_of(result)
 
 
-def test_the_recording_shows_measured_rows_and_their_errors(made, tmp_path):
-    result = made("poses")
+def test_the_recording_shows_measured_rows_and_their_errors(calibration_of, tmp_path):
+    result = calibration_of("poses")
     content, missing = recording_of(result)
-    (tmp_path / "its.rrd").write_bytes(content)
-    values = logged(tmp_path / "its.rrd")
+    (tmp_path / "recording.rrd").write_bytes(content)
+    values = logged(tmp_path / "recording.rrd")
     assert missing == ""
     (points,) = values["/measured Points3D:positions"]
     assert points.reshape(-1, 3) == pytest.approx(result.positions, abs=1e-6)
@@ -146,11 +145,26 @@ def test_the_recording_shows_measured_rows_and_their_errors(made, tmp_path):
     assert rows.tolist() == (result.counted + 1).tolist()
 
 
+def test_drawings_name_their_axes_and_are_the_same_again(calibration_of):
+    result = calibration_of("poses")
+    arm, longer = draw_arm(result)
+    for text, labels in (
+        (draw_errors(result), {"part of the rows", "cross-validated error [mm]"}),
+        (draw_over_joints(result), {"position error [mm]", "lift [deg]", "reach [mm]"}),
+        (arm, {"from the side", "from above", "x [m]", "y [m]", "z [m]"}),
+    ):
+        assert labels <= {*re.findall(r">([^<>]+)</text>", text)} and text.startswith("<svg")
+        assert "<metadata" not in text
+    assert draw_arm(result) == (arm, longer)
+    largest = np.linalg.norm(result.residuals["before"][:, :3], axis=1).max()
+    assert longer * largest == pytest.approx(0.12, rel=0.5)  # m, of an arm of about one
+
+
 @pytest.mark.parametrize("name", ["poses", "targets"])
-def test_corrections_reach_and_proposals_teach(name, made, tmp_path):
-    result = made(name)
-    result.correction.save(tmp_path / "its.npz")
-    correction = load_correction(tmp_path / "its.npz")
+def test_corrections_reach_and_proposals_teach(name, calibration_of, tmp_path):
+    result = calibration_of(name)
+    result.correction.save(tmp_path / "correction.npz")
+    correction = load_correction(tmp_path / "correction.npz")
     learned = correction.learned[:6] + 0.02
     numbers = np.arange(6) % len(correction.targets)
     desired = correction.calibration.predict(learned, numbers)[:, :3, 3]
@@ -171,15 +185,15 @@ def test_corrections_reach_and_proposals_teach(name, made, tmp_path):
     assert np.linalg.norm(gaps, axis=2).min(axis=1).max() < 1e-7
 
 
-def test_arrays_give_the_same_as_their_table(made, lab):
+def test_arrays_give_the_same_as_their_table(calibration_of, lab):
     """The same numbers through `calibrate` and through a table and a description."""
-    result = made("targets")
+    result = calibration_of("targets")
     observations = result.data.observations
     names = np.array(result.data.targets)[observations.targets]
     arrays = calibrate(result.arm, observations.joints, observations.measured, targets=names)
     parameters = result.geometry.estimate.parameters
     assert np.array_equal(arrays.geometry.estimate.parameters, parameters)
     assert arrays.summary().splitlines()[1:3] == result.summary().splitlines()[1:3]
-    seen = arrays.predict(observations.joints[0], "large")
-    commands = arrays.correct(seen[:3, 3], observations.joints[0], "large")
+    pose = arrays.predict(observations.joints[0], "large")
+    commands = arrays.correct(pose[:3, 3], observations.joints[0], "large")
     assert np.allclose(commands.joints, observations.joints[0], atol=1e-5)

@@ -1,23 +1,39 @@
-"""What every peer of the paper's learners has to do, and how well each does it."""
+"""What every learner has to do, and how well the peers of the paper's learners do it."""
 
 import numpy as np
 import pytest
 
-from recalib import EccentricGear, InvalidSetting, Outcome, Plant, PolynomialLearner, apply
+from recalib import (
+    Controller,
+    EccentricGear,
+    EncoderShift,
+    GaussianProcessLearner,
+    GeometricLearner,
+    InvalidSetting,
+    LinkShortening,
+    Outcome,
+    Plant,
+    PolynomialLearner,
+    UnknownName,
+    apply,
+    load_robot,
+    train,
+)
+from recalib.learners import KINDS
 from recalib.loop import measure
-from replication.training import UNCORRECTED, make_peer, peers
+from replication.training import make_peer
+from tests.arms import RAILED, panda
+from tests.learners.test_hierarchical import improved
 
 RUNS = 2
 
 
-NAMES = [*peers()]
-LEARNING = [name for name in NAMES if name != UNCORRECTED]
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 40, 6))
 TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
 
 
-def train(learner, plant, moves, first=0):
-    for move in range(first, moves):
+def trained(learner, plant, moves):
+    for move in range(moves):
         learner.learn(DESIRED[:, move], plant.execute, move / moves)
     return learner
 
@@ -28,36 +44,35 @@ def errors(learner, plant) -> tuple[float, float]:
     return 100 * position[:, 0].mean(), np.degrees(orientation[:, 0].mean())
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_learner_that_has_learned_nothing_commands_what_is_desired(name, robot):
-    assert np.array_equal(make_peer(name, RUNS, robot).command(TESTS), TESTS)
+EVERY = pytest.mark.parametrize("kind", [*KINDS, "radial"])
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_learning_takes_one_move_and_a_refused_move_teaches_nothing(name, robot):
-    learner, sent = make_peer(name, RUNS, robot), []
-
-    def refuse(commands):
-        sent.append(commands.shape)
-        return Outcome(np.zeros_like(commands), np.zeros(commands.shape[:2], dtype=bool))
-
-    learner.learn(DESIRED[:, 0], refuse, 0.0)
-    assert sent == [(RUNS, 1, 6)]
-    assert np.array_equal(learner.command(TESTS), TESTS)
+@EVERY
+def test_a_learner_that_has_learned_nothing_commands_what_is_desired(kind, makers):
+    assert makers[kind](runs=RUNS).command(3 * TESTS) == pytest.approx(3 * TESTS, abs=1e-14)
 
 
-@pytest.mark.parametrize("name", LEARNING)
-def test_one_run_can_be_refused_while_the_other_learns(name, robot, controller, damaged):
-    plant, learner = Plant(controller, damaged), make_peer(name, RUNS, robot)
+@EVERY
+def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
+    kind, makers, controller, damaged
+):
+    """Also next to a run whose moves are refused; a learner of today moves once."""
+    plant, sent = Plant(controller, damaged), []
+    together, alone = makers[kind](runs=2), makers[kind](runs=1)
 
     def refuse_the_first(commands):
+        sent.append(commands.shape)
         outcome = plant.execute(commands)
         return Outcome(outcome.achieved, outcome.executed & np.array([[False], [True]]))
 
-    learner.learn(DESIRED[:, 0], refuse_the_first, 0.0)
-    commands = learner.command(TESTS)
-    assert np.array_equal(commands[0], TESTS[0])
+    for move in range(3):
+        together.learn(DESIRED[:, move], refuse_the_first, move / 40)
+        alone.learn(DESIRED[1:, move], plant.execute, move / 40)
+    assert sent == [(RUNS, 1, 6)] * 3 * (1 + (kind == "hierarchical"))
+    commands = together.command(TESTS)
+    assert commands[0] == pytest.approx(TESTS[0], abs=1e-14)
     assert np.abs(commands[1] - TESTS[1]).max() > 1e-2
+    assert np.array_equal(commands[1:], alone.command(TESTS[1:]))
 
 
 @pytest.mark.parametrize(
@@ -73,7 +88,7 @@ def test_one_run_can_be_refused_while_the_other_learns(name, robot, controller, 
 def test_errors_fall(name, moves, position, orientation, robot, controller, damaged):
     plant = Plant(controller, damaged)
     before = errors(make_peer(name, RUNS, robot), plant)
-    after = errors(train(make_peer(name, RUNS, robot), plant, moves), plant)
+    after = errors(trained(make_peer(name, RUNS, robot), plant, moves), plant)
     assert after[0] < min(position, before[0] / 3)
     assert after[1] < min(orientation, before[1] / 3)
 
@@ -85,7 +100,7 @@ def test_the_hybrid_learns_what_no_geometry_explains(controller, robot):
     )
     plant = Plant(controller, arm)
     geometric, hybrid = (
-        errors(train(make_peer(name, RUNS, robot), plant, 16), plant)
+        errors(trained(make_peer(name, RUNS, robot), plant, 16), plant)
         for name in ("geometric", "hybrid")
     )
     assert geometric[1] > 0.1
@@ -95,3 +110,51 @@ def test_the_hybrid_learns_what_no_geometry_explains(controller, robot):
 def test_a_polynomial_of_another_degree_is_refused():
     with pytest.raises(InvalidSetting, match="1 or 2"):
         PolynomialLearner(3, runs=RUNS)
+
+
+DAMAGES = (
+    LinkShortening("panda_link4", 0.03),
+    EncoderShift("panda_joint3", np.radians(4)),
+    EncoderShift("panda_joint6", np.radians(-3)),
+)
+
+
+@pytest.fixture(scope="module")
+def redundant() -> Controller:
+    return Controller(panda())
+
+
+def remaining(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
+    """The shares of both initial errors that remain, averaged over runs."""
+    random, workspace = np.random.default_rng(5), plant.workspace
+    poses = workspace.sample(random, runs, iterations), workspace.sample(random, runs, 50)
+    history = train(plant, learner, *poses, [0, iterations])
+    errors = np.stack([history.position[..., 0], history.orientation[..., 0]])
+    return (errors[..., -1] / errors[..., 0]).mean(axis=-1)
+
+
+@pytest.mark.parametrize(
+    ("make", "iterations", "most"),
+    [
+        (lambda controller: improved(runs=2), 100, 0.15),
+        (lambda controller: GaussianProcessLearner(runs=2), 60, 0.02),
+        (lambda controller: GeometricLearner(controller, runs=2), 12, 1e-6),
+    ],
+)
+def test_a_learner_recalibrates_seven_joints(make, iterations, most, redundant):
+    plant = Plant(redundant, apply(redundant.robot, DAMAGES))
+    assert np.all(remaining(make(redundant), plant, iterations) < most)
+
+
+def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_path):
+    (path := tmp_path / "railed.urdf").write_text(RAILED)
+    home = {"pan": 0.3, "lift": -0.8, "elbow": 1.4, "bend": -0.4, "twist": 1.1, "turn": 0.5}
+    sides = [0.2, 0.2, 0.2], np.radians([20, 20, 20])
+    robot = load_robot(path, "link_7", {"rail": 0.2} | home, *sides)
+    controller = Controller(robot)
+    slid = controller.targets(robot.workspace.sample(np.random.default_rng(4), 1, 20)).angles
+    assert np.ptp(slid[..., 0]) > 0.02  # m
+    plant = Plant(controller, apply(robot, [EncoderShift("elbow", 0.05)]))
+    assert np.all(remaining(GeometricLearner(controller, runs=2), plant, 12) < 1e-6)
+    with pytest.raises(UnknownName, match="unknown turning joint 'rail'; expected: bend"):
+        apply(robot, [EncoderShift("rail", 0.05)])

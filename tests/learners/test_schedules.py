@@ -5,19 +5,7 @@ from hypothesis import strategies as st
 
 from recalib.learners import schedules
 
-POWERS = [
-    *schedules.RATES.values(),
-    *(schedules.equal_visits(n, spread) for n in (3, 6) for spread in schedules.SPREADS),
-]
 starts, ends = st.floats(0.2, 5), st.floats(0.01, 0.19)
-
-
-@pytest.mark.parametrize("power", POWERS)
-@given(start=starts, end=ends)
-def test_what_falls_falls_from_start_to_end(power, start, end):
-    values = schedules.fall(start, end, np.linspace(0, 1, 50), power)
-    assert values[0] == pytest.approx(start) and values[-1] == pytest.approx(end)
-    assert (np.diff(values) < 0).all()
 
 
 @pytest.mark.parametrize("n", [3, 6])

@@ -1,3 +1,6 @@
+"""Arms as they are loaded: their joints, points and links, and what is said in loading."""
+
+import os
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -5,9 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from recalib import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot, load_arm
-from recalib.nominal import UrdfFile, find_urdf
-from tests.arms import GANTRY, SCARA, urdf
+from recalib import InvalidFile, InvalidSetting, UnsuitableRobot, load_arm
+from recalib.nominal import STDERR, UrdfFile, caught_messages, find_urdf
+from tests.arms import GANTRY, SCARA
 
 # Of example-robot-data: the tool, and how many joints move it.
 ARMS = {
@@ -24,7 +27,6 @@ ARMS = {
     "tiago.urdf": ("hand_tool_link", 8),
     "baxter.urdf": ("left_gripper", 7),
 }
-SLIDER = "slide", "prismatic", "1 0 0", "0 0 0"
 
 
 @pytest.mark.parametrize("name", ARMS)
@@ -54,13 +56,10 @@ def test_a_scara_moves_as_its_closed_form_says(load):
     assert np.allclose(pose[:2, 0], [np.cos(both + wrist), np.sin(both + wrist)])
 
 
-def test_one_link_with_a_mass_is_enough_for_gravity(load):
+def test_one_link_with_a_mass_is_enough_for_gravity_and_limits_may_hold_a_joint(load):
     light = load(SCARA)
     assert light.massless
     assert not load(SCARA.replace('mass value="0.0"', 'mass value="2"', 1)).massless
-
-
-def test_a_joint_may_be_held_by_its_limits(load):
     arm = load(SCARA.replace('lower="-2"', 'lower="2"', 1))
     assert arm.model.lowerPositionLimit[0] == arm.model.upperPositionLimit[0] == 2
 
@@ -94,59 +93,15 @@ def test_an_installed_description_is_found_by_its_name(monkeypatch, tmp_path):
     name = "robot_descriptions.scara_description"
     monkeypatch.setitem(sys.modules, name, SimpleNamespace(URDF_PATH=str(path)))
     assert len(load_arm("scara_description").joints) == 4
-    with pytest.raises(
-        InvalidSetting, match=r"'arm_description'; expected: .* has to be installed"
-    ):
+    with pytest.raises(InvalidSetting, match=r"'arm_description'; .* has to be installed"):
         load_arm("arm_description")
-
-
-CIRCLE = """<link name="one"/><link name="two"/>
-<joint name="j" type="fixed"><parent link="one"/><child link="two"/></joint>
-<joint name="k" type="fixed"><parent link="two"/><child link="one"/></joint></robot>"""
-
-
-@pytest.mark.parametrize(
-    ("text", "links", "error", "message"),
-    [
-        (SCARA, ["hand"], UnknownName, "tool link of small.urdf 'hand'; expected: base, link_1"),
-        (SCARA, ["link_5", "bed"], UnknownName, "base link of small.urdf 'bed'; expected: base,"),
-        (SCARA, ["link_2", "link_3"], UnsuitableRobot, "link_3 does not carry link_2 in small"),
-        (SCARA, ["link_5", "link_4"], UnsuitableRobot, "no joint of small.urdf moves link_5"),
-        (urdf(SLIDER, ("drift", "planar", "0 0 1", "0 0 0")), [], UnsuitableRobot, "drift .* plan"),
-        (urdf(SLIDER, ("fly", "floating", "0 0 1", "0 0 0")), [], UnsuitableRobot, "fly .* float"),
-        (
-            SCARA.replace("link_3", "link_1").replace('<link name="link_1"/>', "", 1),
-            [],
-            UnsuitableRobot,
-            "link_1 is the child of two joints, shoulder and quill, .* expected: a tree",
-        ),
-        (
-            SCARA.replace("</robot>", CIRCLE),
-            ["one"],
-            UnsuitableRobot,
-            "one and two of .*small.urdf hang in a circle, on no base; expected: a tree",
-        ),
-        (urdf(("a", "revolute", "0 0 0", "0 0 0")), [], UnsuitableRobot, "axis of a has no length"),
-        (
-            SCARA.replace('lower="-2"', 'lower="3"', 1),
-            [],
-            UnsuitableRobot,
-            "the limits of shoulder are 3.0 to 2.0 in",
-        ),
-        (SCARA.replace('"-2"', '"${-2}"', 1), [], UnsuitableRobot, "has lower"),
-        ('<robot name="x"><link/><joint type="fixed"/></robot>', [], UnsuitableRobot, "not a URDF"),
-    ],
-)
-def test_what_is_no_such_arm_is_refused_by_name(load, text, links, error, message):
-    with pytest.raises(error, match=message):
-        load(text, *links)
 
 
 def test_what_hangs_on_fixed_joints_alone_is_no_end_of_the_arm(load):
     """Such as a camera on the base."""
     camera = '<link name="camera"/><joint name="mount" type="fixed"><parent link="base"/>'
-    beside = GANTRY.replace("</robot>", f'{camera}<child link="camera"/></joint></robot>')
-    assert load(beside).tool == load(GANTRY).tool
+    with_camera = GANTRY.replace("</robot>", f'{camera}<child link="camera"/></joint></robot>')
+    assert load(with_camera).tool == load(GANTRY).tool
 
 
 def test_what_is_still_to_be_expanded_is_refused_whatever_its_name(load):
@@ -179,3 +134,50 @@ def test_what_is_no_file_of_ones_own_is_not_passed_over(tmp_path, monkeypatch):
     assert find_urdf("panda.urdf").is_absolute()
     with pytest.raises(InvalidFile, match="it is a folder; expected: a file"):
         load_arm(tmp_path)
+
+
+POSTURES = {
+    "ur10_robot.urdf": ("tool0", [0.0, -1.4, 2.1, -2.9, -1.6, 0.1]),
+    "tiago.urdf": ("hand_tool_link", [0.2, 1.0, -0.5, 1.0, 1.2, -1.0, 0.5, 0.5]),
+}
+
+
+@pytest.fixture(params=POSTURES)
+def arm_and_angles(request):
+    tool, posture = POSTURES[request.param]
+    random = np.random.default_rng(1)
+    angles = posture + random.uniform(-0.1, 0.1, (3, len(posture)))
+    return load_arm(request.param, tool), angles
+
+
+def test_a_skeleton_goes_from_the_base_over_the_joints_to_the_tool(arm_and_angles):
+    """Rotating a joint leaves where it and those before it are; the tool is where it is."""
+    arm, angles = arm_and_angles
+    points = arm.skeleton(angles)
+    joints = len(arm.joints)
+    assert points.shape == (3, joints + 2, 3) and not points[:, 0].any()
+    assert np.allclose(points[:, -1], arm.forward(angles)[:, :3, 3])
+    for joint in np.flatnonzero(~arm.slides):
+        moved = arm.skeleton(angles + 0.3 * (np.arange(joints) == joint))
+        assert np.allclose(moved[:, : joint + 2], points[:, : joint + 2])
+    assert not np.allclose(arm.skeleton(angles + 0.3)[:, 2:], points[:, 2:], atol=0.01)
+
+
+def test_lines_are_caught_and_the_next_ones_are_written_again(capfd):
+    with caught_messages() as lines:
+        os.write(STDERR, b"Error: one\n two\n")
+    os.write(STDERR, b"three\n")
+    assert lines == ["Error: one", " two"]
+    assert capfd.readouterr().err == "three\n"
+
+
+def test_where_stderr_is_closed_nothing_is_caught():
+    before = os.dup(STDERR)
+    os.close(STDERR)
+    try:
+        with caught_messages() as lines:
+            pass
+    finally:
+        os.dup2(before, STDERR)
+        os.close(before)
+    assert lines == []

@@ -66,10 +66,8 @@ def test_a_joint_outside_the_chain_may_drive_it(loaded):
     text = urdf(*sections).replace("</robot>", motor)
 
     arm = arm_of(text.encode(), Path("lift.urdf"), "link_4")
-    assert arm.coupling.columns == ("lift", "turn") and arm.coupling.slides.tolist() == [
-        True,
-        False,
-    ]
+    assert arm.coupling.columns == ("lift", "turn")
+    assert arm.coupling.slides.tolist() == [True, False]
     assert arm.coupling.limits.tolist() == [[1, -2], [3, 2]]
     height = arm.forward(arm.coupling.joints(np.array([[1.8, 0.3]])))[0, 2, 3]
     assert height == pytest.approx(1.8 - 1 + 1)

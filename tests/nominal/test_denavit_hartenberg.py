@@ -46,9 +46,8 @@ def test_the_tool_is_where_the_product_of_the_rows_says(convention, rows, angle)
     rows = [Row(f"j{i}", r.a, r.alpha, r.d, r.theta, r.slides) for i, r in enumerate(rows)]
     arm, expected = arm_of_table(rows, convention), np.eye(4)
     for row in rows:
-        along_z = turn(2, row.theta + angle * (not row.slides)) @ slide(
-            2, row.d + angle * row.slides
-        )
+        turned, slid = angle * (not row.slides), angle * row.slides
+        along_z = turn(2, row.theta + turned) @ slide(2, row.d + slid)
         along_x = turn(0, row.alpha) @ slide(0, row.a)
         parts = (along_z, along_x) if convention == "standard" else (along_x, along_z)
         expected = expected @ parts[0] @ parts[1]
@@ -63,12 +62,7 @@ def test_the_tool_is_where_the_product_of_the_rows_says(convention, rows, angle)
         ([Row("a")], "craig", UnknownName, "'craig'; expected: modified or standard"),
         ([], "standard", InvalidSetting, "1 to 100"),
         ([Row("a"), Row("a")], "standard", InvalidSetting, "'a'; expected: another name"),
-        (
-            [Row("a", alpha=np.nan)],
-            "standard",
-            InvalidSetting,
-            "alpha of a is nan; expected: a num",
-        ),
+        ([Row("a", alpha=np.nan)], "standard", InvalidSetting, "alpha of a is nan; expected: a nu"),
     ],
 )
 def test_a_table_that_makes_no_arm_is_refused(rows, convention, error, message):

@@ -55,15 +55,16 @@ def test_a_turn_next_to_half_a_turn_is_read_to_the_last_digits():
 
 def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
     assert np.allclose(WORKSPACE.to_poses(np.zeros((1, 6)))[0], CENTRE)
-    pose = WORKSPACE.to_poses(
-        np.array([[1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1.0], [0, 0, 0, 1, 1, 1.0]])
-    )
+    u = np.array([[1.0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1], [0, 0, 0, 1, 1, 1]])
+    pose = WORKSPACE.to_poses(u)
     assert np.allclose(pose[0, :3, 3] - CENTRE[:3, 3], [0.25, 0, 0])
-    assert np.allclose(
-        pose[1, :3, :3], CENTRE[:3, :3] @ Rotation.from_rotvec([0, 0, 0.35]).as_matrix()
-    )
+    yaw = Rotation.from_rotvec([0, 0, 0.35]).as_matrix()
+    assert np.allclose(pose[1, :3, :3], CENTRE[:3, :3] @ yaw)
     x, y, z = (Rotation.from_rotvec(0.35 * axis).as_matrix() for axis in np.eye(3))
     assert np.allclose(pose[2, :3, :3], CENTRE[:3, :3] @ z @ y @ x)
+    sample = WORKSPACE.sample(np.random.default_rng(0), 1000)
+    assert sample.shape == (1000, 6)
+    assert sample.min() >= -1 and sample.max() <= 1 and np.ptp(sample, axis=0).min() > 1.9
 
 
 def test_unknown_coordinates_are_refused_with_the_known_ones():
@@ -72,7 +73,7 @@ def test_unknown_coordinates_are_refused_with_the_known_ones():
 
 
 @pytest.mark.parametrize(
-    ("numbers", "turns", "most"),
+    ("numbers", "angles", "most"),
     [
         ("roll_pitch_yaw", [10, 90, 10], "a pitch below 90 deg"),
         ("roll_pitch_yaw", [180, 10, 10], "roll and yaw below 180 deg"),
@@ -80,14 +81,14 @@ def test_unknown_coordinates_are_refused_with_the_known_ones():
     ],
 )
 def test_a_workspace_in_which_orientations_have_several_coordinates_is_refused(
-    numbers, turns, most
+    numbers, angles, most
 ):
-    def box(turns):
-        return Workspace(CENTRE, np.array([0.1, 0.1, 0.1, *np.radians(turns)]), numbers)
+    def box(angles):
+        return Workspace(CENTRE, np.array([0.1, 0.1, 0.1, *np.radians(angles)]), numbers)
 
     with pytest.raises(InvalidSetting, match=f"half_ranges of orientation is .*{most}"):
-        box(turns)
-    workspace = box(0.98 * np.array(turns))
+        box(angles)
+    workspace = box(0.98 * np.array(angles))
     corners = np.array([*product((-1, 1), repeat=6)], dtype=float)
     again = workspace.to_coordinates(workspace.to_poses(corners))
     np.testing.assert_allclose(again, corners, rtol=0, atol=1e-9)
@@ -99,18 +100,11 @@ def test_errors_measure_a_known_displacement(offset, axis, angle):
         axis = np.array([0, 0, 1.0])
     moved = CENTRE.copy()
     moved[:3, 3] += offset
-    moved[:3, :3] = (
-        Rotation.from_rotvec(angle * axis / np.linalg.norm(axis)).as_matrix() @ CENTRE[:3, :3]
-    )
+    turn = Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
+    moved[:3, :3] = turn.as_matrix() @ CENTRE[:3, :3]
     assert position_error(moved, CENTRE) == pytest.approx(np.linalg.norm(offset), abs=1e-12)
     assert orientation_error(moved[None], CENTRE[None])[0] == pytest.approx(angle, abs=1e-9)
     assert orientation_error(CENTRE[None], moved[None])[0] == pytest.approx(angle, abs=1e-9)
-
-
-def test_samples_fill_the_box():
-    sample = WORKSPACE.sample(np.random.default_rng(0), 1000)
-    assert sample.shape == (1000, 6)
-    assert sample.min() >= -1 and sample.max() <= 1 and np.ptp(sample, axis=0).min() > 1.9
 
 
 def test_an_error_is_a_distance_and_a_turn_or_a_mean_over_coordinates():
@@ -124,9 +118,6 @@ def test_an_error_is_a_distance_and_a_turn_or_a_mean_over_coordinates():
     assert position == pytest.approx(0.07 / 3) and orientation == pytest.approx(0.09 / 3)
     with pytest.raises(UnknownName, match="error of a pose 'median'"):
         pose_errors(WORKSPACE, *poses, error="median")
-
-
-def test_errors_of_angles_are_taken_the_shorter_way_round():
     yaw = np.zeros((2, 6))
     yaw[:, 5] = np.array([-3.1, 3.1]) / HALF_RANGES[5]
     poses = [WORKSPACE.to_poses(u[None]) for u in yaw]

@@ -12,7 +12,9 @@ SIDES = [0.5, 0.6, 0.5], np.radians([40, 40, 40])
 @pytest.mark.parametrize("name", ["ur10", "z1", "jaco", "puma560"])
 def test_a_longer_tool_goes_on_outwards_along_the_axis_of_the_last_joint(name, plan):
     nominal = plan.nominal(name)
-    short, long = (nominal_robot(changed(nominal, beyond=beyond)) for beyond in (0.0, 0.12))
+    short, long = (
+        nominal_robot(changed(nominal, robot={"beyond": beyond})) for beyond in (0.0, 0.12)
+    )
     _, jacobian = short.arm.forward_and_jacobian(short.home[None])
     moved = (long.workspace.centre - short.workspace.centre)[:3]
     assert np.allclose(moved[:, :3], 0, atol=1e-12), "it does not turn"
@@ -39,17 +41,17 @@ def test_a_longer_tool_goes_on_outwards_along_the_axis_of_the_last_joint(name, p
 )
 def test_an_impossible_robot_is_refused_with_what_would_be_valid(plan, change, error, message):
     with pytest.raises(error, match=message):
-        nominal_robot(changed(plan.nominal("ur10"), **change))
+        nominal_robot(changed(plan.nominal("ur10"), robot=change))
 
 
 def test_names_may_stand_in_any_order(robot):
     home = dict(zip(robot.joints, robot.home, strict=True))
     limits = {joint: (-3.0 - index, 3.0 + index) for index, joint in enumerate(robot.joints)}
-    home, limits = (dict(reversed(its.items())) for its in (home, limits))
-    its = load_robot(robot.urdf, "tool0", home, *SIDES, limits=limits)
-    assert np.array_equal(its.home, robot.home)
-    assert its.lower.tolist() == [-3, -4, -5, -6, -7, -8]
-    assert its.upper.tolist() == [3, 4, 5, 6, 7, 8]
+    home, limits = (dict(reversed(values.items())) for values in (home, limits))
+    loaded = load_robot(robot.urdf, "tool0", home, *SIDES, limits=limits)
+    assert np.array_equal(loaded.home, robot.home)
+    assert loaded.lower.tolist() == [-3, -4, -5, -6, -7, -8]
+    assert loaded.upper.tolist() == [3, 4, 5, 6, 7, 8]
 
 
 def test_the_home_of_a_joint_that_slides_is_a_length():
@@ -59,16 +61,11 @@ def test_the_home_of_a_joint_that_slides_is_a_length():
         load_robot("tiago.urdf", arm.tool, home, [0.01] * 3, [0.01] * 3)
 
 
-def test_a_workspace_without_size_is_refused(robot):
+def test_a_workspace_without_size_or_for_fewer_than_six_joints_is_refused(robot, tmp_path):
     home = dict(zip(robot.joints, robot.home, strict=True))
     with pytest.raises(InvalidSetting, match="above zero"):
         load_robot(robot.urdf, "tool0", home, [0, 0.6, 0.5], SIDES[1])
-
-
-def test_a_workspace_needs_six_joints(tmp_path):
     (path := tmp_path / "scara.urdf").write_text(SCARA)
     home = dict.fromkeys(("shoulder", "elbow", "quill", "wrist"), 0.1)
-    with pytest.raises(
-        UnsuitableRobot, match="with 4 joints: shoulder, .*; expected: at least six"
-    ):
+    with pytest.raises(UnsuitableRobot, match="with 4 joints: .*; expected: at least six"):
         load_robot(path, "link_5", home, *SIDES)

@@ -21,22 +21,18 @@ GRIPPER = (
     '<link name="hand"/><joint name="grip" type="revolute"><parent link="link_1"/>'
     '<child link="hand"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>'
 )
-LOOP = (
-    '<joint name="back" type="revolute"><parent link="base"/><child link="link_2"/></joint></robot>'
-)
+BACK = '<parent link="base"/><child link="link_2"/></joint></robot>'
+LOOP = f'<joint name="back" type="revolute">{BACK}'
+CIRCLE = """<link name="one"/><link name="two"/>
+<joint name="j" type="fixed"><parent link="one"/><child link="two"/></joint>
+<joint name="k" type="fixed"><parent link="two"/><child link="one"/></joint></robot>"""
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (
-            ("</robot>", LOOP),
-            "link_2 is the child of two joints, two and back, .* expected: a tree",
-        ),
-        (
-            ('mass value="0.0"', 'mass value="nan"'),
-            "the mass of link_1 in arm.urdf has value 'nan'",
-        ),
+        (("</robot>", LOOP), "link_2 is the child of two joints, two and back, .* expected: a tre"),
+        (('mass value="0.0"', 'mass value="nan"'), "the mass of link_1 in arm.urdf has value 'nan"),
         (('mass value="0.0"', 'mass value="-1"'), "one carries has no mass of an arm's link"),
         (('mass value="0.0"', 'mass value="1e7"'), "one carries has no mass of an arm's link"),
         (
@@ -51,19 +47,25 @@ LOOP = (
         (('xyz="0 0 1"', 'xyz=""'), "the axis of one in arm.urdf has xyz ''"),
         (('xyz="0.4 0 0"', 'xyz="0.4 0 inf"'), "the origin of two in arm.urdf has xyz '0.4 0 inf'"),
         (('upper="2"', 'upper="two"'), "the limit of one in arm.urdf has upper 'two'"),
-        (
-            ('xyz="0.4 0 0"', 'xyz="0.4 0"'),
-            "the origin of two has xyz '0.4 0'; expected: three num",
-        ),
+        (('xyz="0.4 0 0"', 'xyz="0.4 0"'), "the origin of two has xyz '0.4 0'; expected: three nu"),
         (('name="one"', 'name="o&#10;ne"'), r"a joint in arm.urdf has the name 'o\\nne'"),
         (('name="two"', 'name=" "'), "a joint in arm.urdf has the name ' '"),
         (('name="link_2"', 'name="a&#x202e;"'), r"a link in arm.urdf has the name 'a\\u202e'"),
+        (('"revolute"', '"planar"'), "joint one between .* is planar; expected"),
+        (('"revolute"', '"floating"'), "joint one between .* is floating; expected"),
+        (('lower="-2"', 'lower="3"'), "the limits of one are 3.0 to 2.0 in"),
+        ((ARM, '<robot name="x"><link/><joint type="fixed"/></robot>'), "not a URDF"),
         (("</robot>", "<robot>"), r"it is not XML: line \d+, column \d+: no element found"),
     ],
 )
 def test_a_mistake_is_named(change, message):
     with pytest.raises(RecalibError, match=message):
         arm_of(ARM.replace(*change, 1).encode(), PATH)
+
+
+def test_links_in_a_circle_of_their_own_are_refused():
+    with pytest.raises(UnsuitableRobot, match="one and two of arm.urdf hang in a circle, on no"):
+        arm_of(ARM.replace("</robot>", CIRCLE).encode(), PATH)
 
 
 def test_an_arm_of_too_many_joints_is_refused():

@@ -10,6 +10,10 @@ from recalib import EncoderShift, LinkShortening
 from replication.config import Study
 from replication.scenarios import Resolved
 from replication.training import Space, rules_of, trained
+from tests.conftest import changed
+
+# A plan of experiments on the study's own robot, with no learners but those that it names.
+ALONE = {"own": {}, "robots": (), "switches": False}
 
 
 @pytest.fixture(scope="session")
@@ -17,7 +21,7 @@ def uneven(plan) -> Resolved:
     """The study's robot with a link short, an encoder shifted, and noise of its own."""
     noise = plan.study.scenarios["noise"][-1]
     damages = LinkShortening("forearm_link", 0.04), EncoderShift("wrist_1_joint", -0.06), noise
-    return plan.resolved("intact").model_copy(update={"scenario": "uneven", "damages": damages})
+    return changed(plan.resolved("intact"), scenario="uneven", damages=damages)
 
 
 def settings_of(study: Study, path: Path) -> list[Path]:

@@ -7,7 +7,8 @@ from importlib.util import find_spec
 
 import pytest
 
-from tests.project import Project, ended, kill
+from tests.faults.yard import at_work
+from tests.project import Project, kill, outcome_of
 from tests.slurm.cluster import Cluster, missing
 
 pytestmark = [
@@ -43,7 +44,7 @@ class Trainings:
 
     def at_work(self):
         """The first job at work, as soon as there is one."""
-        return self._project.at_work(self._process)[0]
+        return at_work(self._project, self._process)[0]
 
     def kill(self):
         """End Snakemake at once, if it still runs, and leave its jobs in Slurm alone."""
@@ -52,7 +53,7 @@ class Trainings:
 
     def results(self) -> tuple[dict[str, bytes], str]:
         """Wait for its end; the contents of its files by their paths, and its output."""
-        output = ended(self._process).well().said
+        output = outcome_of(self._process).expect_success().output
         folder = self._project.results / self._name
         files = [folder / "summary.csv", *(folder / "runs").rglob("*.*")]
         return {str(path.relative_to(folder)): path.read_bytes() for path in files}, output

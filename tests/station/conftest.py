@@ -8,9 +8,9 @@ import pytest
 import rerun as rr
 from watched import LiveView
 
-from recalib import Observations, load_shapes
+from recalib import Answer, LiveSettings, Observations, calibrate_live, load_shapes
 from recalib.laboratory.live.running import RunningCalibration
-from recalib.laboratory.live.session import Answer, Ended, LiveSettings, Move, calibrate_live
+from recalib.laboratory.live.session import Ended, Move
 from recalib.nominal import find_urdf
 from tests.station.simulated import Simulated
 
@@ -22,7 +22,7 @@ MOST = "recalib.laboratory.live.allowed.MOST"
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    """A simulated arm stands at once, and a few postures are enough to choose from."""
+    """A simulated arm stands at once, and proposals are among a few postures."""
     monkeypatch.setattr(MOST, 60)
     for name, seconds in WAITS.items():
         monkeypatch.setattr(f"recalib.station.guarded.{name}", seconds)
@@ -30,17 +30,17 @@ def quick(monkeypatch):
 
 @pytest.fixture
 def all_postures(quick, monkeypatch):
-    """As many postures to choose from as there are."""
+    """Proposals are among all postures."""
     monkeypatch.setattr(MOST, 400)
 
 
-class Lived(NamedTuple):
-    """What happened in a live calibration, of a UR5 as the bar for its end has it."""
+class LiveSession(NamedTuple):
+    """What a live calibration of a UR5 asked, measured and wrote."""
 
     station: Simulated
-    ended: Ended
+    end: Ended
     lines: list[str]
-    asked: list[Move]
+    proposed: list[Move]
     rows: Observations
     running: RunningCalibration
     table: Path
@@ -48,10 +48,10 @@ class Lived(NamedTuple):
 
 
 @pytest.fixture(scope="session")
-def lived(tmp_path_factory) -> Lived:
+def session(tmp_path_factory) -> LiveSession:
     """Until the predicted error is 0.3 mm, and a few rows more."""
-    folder, station = tmp_path_factory.mktemp("lived"), Simulated("UR5", 1, FINE)
-    urdf, lines, asked, seen = find_urdf("ur5_robot.urdf"), [], [], []
+    folder, station = tmp_path_factory.mktemp("session"), Simulated("UR5", 1, FINE)
+    urdf, lines, proposed, shown = find_urdf("ur5_robot.urdf"), [], [], []
     with pytest.MonkeyPatch.context() as patch, rr.RecordingStream("live") as rec:
         for name, seconds in WAITS.items():
             patch.setattr(f"recalib.station.guarded.{name}", seconds)
@@ -59,14 +59,14 @@ def lived(tmp_path_factory) -> Lived:
         view = LiveView(station.arm, urdf, rec)
 
         def ask(move: Move) -> Answer:
-            asked.append(move)
+            proposed.append(move)
             return Answer.MOVE
 
         def show(rows, running):
-            seen[:] = rows, running
+            shown[:] = rows, running
             view.show(rows, running)
 
-        ended = calibrate_live(
+        end = calibrate_live(
             lambda: station,
             station.arm,
             folder / "table.csv",
@@ -77,7 +77,8 @@ def lived(tmp_path_factory) -> Lived:
             show,
             shapes=load_shapes(station.arm, urdf)[0],
         )
-    return Lived(station, ended, lines, asked, *seen, folder / "table.csv", folder / "live.rrd")
+    files = folder / "table.csv", folder / "live.rrd"
+    return LiveSession(station, end, lines, proposed, *shown, *files)
 
 
 FINE = 1e-4, np.radians(0.01)  # m, rad

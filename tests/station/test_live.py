@@ -12,19 +12,22 @@ import numpy as np
 import pytest
 
 from recalib import (
+    Answer,
     Description,
     InvalidFile,
     InvalidSetting,
+    LiveSettings,
     NotReached,
     Observations,
     StationFailed,
     UnknownName,
+    calibrate_arm,
+    calibrate_live,
 )
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.running import RunningCalibration
-from recalib.laboratory.live.session import Answer, Interrupted, LiveSettings, calibrate_live
+from recalib.laboratory.live.session import Interrupted
 from recalib.station import Guarded
 from tests.conftest import few_folds
 from tests.identification.real import anywhere
@@ -43,91 +46,87 @@ def run(station, folder, ask=lambda move: Answer.MOVE, on_progress=lambda line: 
 
 
 def few(count: int):
-    """What lets an arm make a few moves: no calibration, which takes long, is needed."""
-    left = iter([Answer.MOVE] * count)
-    return lambda move: next(left, Answer.END)
+    """Answers for a few moves and an end: no calibration, which takes long, is needed."""
+    answers = iter([Answer.MOVE] * count)
+    return lambda move: next(answers, Answer.END)
 
 
-def remaining(station, rows, running) -> float:
-    """The true mean error [m] of what is known after some rows."""
+def true_error(station, rows, running) -> float:
+    """The true mean error [m] of the calibration by some rows."""
     low, high = (np.maximum(station.limits[0], rows.joints[0] - SPAN), rows.joints[0] + SPAN)
     fresh = np.random.default_rng(0).uniform(low, high, (200, len(low)))
     gaps = running.calibration(rows).predict(fresh) - station.real.poses(fresh, noise=(0, 0))
     return float(np.linalg.norm(gaps[:, :3, 3], axis=1).mean())
 
 
-def test_it_ends_as_soon_as_the_arm_is_as_right_as_was_asked_for(lived):
-    assert lived.ended.reason.endswith("; 0.3 mm was requested")
-    assert lived.ended.rows == len(lived.rows) <= 14 and "stop" not in lived.station.calls
-    assert remaining(lived.station, lived.rows, lived.running) < 3e-4
-    predicted = lived.running.error(lived.rows)
-    assert (
-        lived.lines[-1] == f"row {len(lived.rows)}: the predicted error is {1e3 * predicted:.3g} mm"
-    )
-
-
-def test_before_the_first_move_it_says_where_the_tool_will_be(lived):
-    ranges = re.findall(r"([xyz]) from (-?\d+) to (-?\d+) mm", lived.lines[0])
+def test_it_says_where_the_tool_will_be_and_ends_as_soon_as_the_arm_is_right(session):
+    assert session.end.reason.endswith("; 0.3 mm was requested")
+    assert session.end.rows == len(session.rows) <= 14 and "stop" not in session.station.calls
+    assert true_error(session.station, session.rows, session.running) < 3e-4
+    predicted = session.running.error(session.rows)
+    last = f"row {len(session.rows)}: the predicted error is {1e3 * predicted:.3g} mm"
+    assert session.lines[-1] == last
+    ranges = re.findall(r"([xyz]) from (-?\d+) to (-?\d+) mm", session.lines[0])
     low, high = np.array([(float(a), float(b)) for _, a, b in ranges]).T
-    places = 1e3 * np.array([move.tool_after for move in lived.asked])
+    places = 1e3 * np.array([move.tool_after for move in session.proposed])
     assert [axis for axis, *_ in ranges] == [*"xyz"]
     assert (places >= low - 1).all() and (places <= high + 1).all() and low[2] > 0
 
 
-def test_each_move_is_asked_for_and_made_at_the_speed_that_was_set(lived):
-    assert len(lived.asked) == len(lived.station.moves) == len(lived.rows) - 1
-    for move, (angles, speed) in zip(lived.asked, lived.station.moves, strict=True):
+def test_each_move_is_asked_for_and_made_at_the_speed_that_was_set(session):
+    assert len(session.proposed) == len(session.station.moves) == len(session.rows) - 1
+    for move, (angles, speed) in zip(session.proposed, session.station.moves, strict=True):
         assert np.array_equal(move.goal, angles) and speed == 0.37
-        ends = lived.station.arm.forward(np.array([move.start, move.goal]))[:, :3, 3]
+        ends = session.station.arm.forward(np.array([move.start, move.goal]))[:, :3, 3]
         assert np.allclose(ends, [move.tool_before, move.tool_after])
-    starts = np.array([move.start for move in lived.asked])
-    assert np.array_equal(starts, lived.rows.joints[:-1])
+    starts = np.array([move.start for move in session.proposed])
+    assert np.array_equal(starts, session.rows.joints[:-1])
 
 
-def test_it_can_be_watched(lived):
-    shown = logged(lived.recording)
+def test_it_can_be_watched(session):
+    shown = logged(session.recording)
     assert {name.split()[0] for name in shown} >= {"/line", "/measured", "/workspace"}
     (errors,) = (shown[name] for name in shown if "/predicted Scalars" in name)
-    assert len(np.concatenate(errors)) == len(lived.rows) - 9
-    assert np.concatenate(errors)[-1] == pytest.approx(1e3 * lived.running.error(lived.rows))
-    # in the base, where the target is as far from the tool in all postures, but for what is off
+    assert len(np.concatenate(errors)) == len(session.rows) - 9
+    assert np.concatenate(errors)[-1] == pytest.approx(1e3 * session.running.error(session.rows))
+    # in the base, where the target is as far from the tool in all postures, but for its errors
     measured = np.concatenate(shown["/measured Points3D:positions"])
-    measured = measured.reshape(-1, 3)[-len(lived.rows) :]
-    tool = lived.station.arm.forward(lived.rows.joints)[:, :3, 3]
+    measured = measured.reshape(-1, 3)[-len(session.rows) :]
+    tool = session.station.arm.forward(session.rows.joints)[:, :3, 3]
     assert np.ptp(np.linalg.norm(measured - tool, axis=1)) < 0.05
 
 
-def test_a_command_takes_the_target_where_it_should_be(lived):
-    station = lived.station
+def test_a_command_takes_the_target_where_it_should_be(session):
+    station = session.station
     with few_folds():
-        correction = calibrate_arm("ur5_robot.urdf", lived.table, tool="tool0").correction
-    near = station.stands
-    goal = station.real.poses(near[None] + 0.05, noise=(0, 0))[0]
-    command = correction.command(goal, near, target="the target")
-    there = station.real.poses(command[None], noise=(0, 0))[0]
-    assert np.linalg.norm((there - goal)[:3, 3]) < 1e-3
-    position = correction.command(goal[:3, 3], near, target="the target")
-    assert np.abs(position - near).max() < np.abs(command - near).max() + 0.05
-    shown = correction.calibration.predict(near[None])[0]
-    np.testing.assert_allclose(correction.command(shown, near + 0.02), near, atol=1e-6)
+        correction = calibrate_arm("ur5_robot.urdf", session.table, tool="tool0").correction
+    posture = station.stands
+    goal = station.real.poses(posture[None] + 0.05, noise=(0, 0))[0]
+    command = correction.command(goal, posture, target="the target")
+    reached = station.real.poses(command[None], noise=(0, 0))[0]
+    assert np.linalg.norm((reached - goal)[:3, 3]) < 1e-3
+    position = correction.command(goal[:3, 3], posture, target="the target")
+    assert np.abs(position - posture).max() < np.abs(command - posture).max() + 0.05
+    pose = correction.calibration.predict(posture[None])[0]
+    np.testing.assert_allclose(correction.command(pose, posture + 0.02), posture, atol=1e-6)
     with pytest.raises(NotReached):
-        correction.command(np.array([9.0, 0, 0]), near)
+        correction.command(np.array([9.0, 0, 0]), posture)
     with pytest.raises(UnknownName, match="unknown target"):
-        correction.command(goal, near, target="the board")
+        correction.command(goal, posture, target="the board")
 
 
-def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(lived):
+def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(session):
     """A tripod was bumped; one or two may be outliers."""
-    rows, bump = lived.rows, anywhere(np.random.default_rng(0), 0)
+    rows, station, bump = session.rows, session.station, anywhere(np.random.default_rng(0), 0)
     bump[:3, :3], bump[:3, 3] = np.eye(3), [6e-3, -6e-3, 5e-3]  # m
-    more = AllowedPostures(lived.station.arm, rows.joints[0], lived.station.limits, SPAN).joints[:5]
+    more = AllowedPostures(station.arm, rows.joints[0], station.limits, SPAN).joints[:5]
     joints = np.concatenate([rows.joints, more])
-    measured = np.concatenate([rows.measured, lived.station.real.poses(more, noise=FINE)])
+    measured = np.concatenate([rows.measured, station.real.poses(more, noise=FINE)])
 
     def checked(count, *moved):
         poses = measured.copy()
         poses[[*moved]] = bump @ poses[[*moved]]
-        return lived.running.check(Observations(joints, poses)[:count])
+        return session.running.check(Observations(joints, poses)[:count])
 
     count = len(rows)
     assert checked(count + 5) is None and checked(count + 2, count, count + 1) is None
@@ -136,28 +135,28 @@ def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(lived):
     assert re.match(f"in rows {count + 1} to {count + 3} the target was measured .* mm from", wrong)
     assert "The instrument or the target may have moved" in wrong
     far = measured[: count + 1].copy()
-    for away, believed in ((0.045, True), (0.055, False)):  # m
+    for away, plausible in ((0.045, True), (0.055, False)):  # m
         far[-1, 2, 3] = measured[count, 2, 3] + away
-        seen = Observations(joints[: count + 1], far)
-        assert (lived.running.check(seen) is None) == believed
+        observations = Observations(joints[: count + 1], far)
+        assert (session.running.check(observations) is None) == plausible
 
 
-def test_more_counts_as_less_sure_where_the_last_rows_were_a_surprise(lived):
-    rows, running = lived.rows, lived.running
+def test_more_counts_as_less_sure_where_the_last_rows_were_a_surprise(session):
+    rows, running = session.rows, session.running
     spoilt = rows.measured.copy()
     spoilt[-4:, :3, 3] += 2e-3 * np.random.default_rng(0).standard_normal((4, 3))
-    fresh = RunningCalibration(lived.station.arm, Description(), running._postures)
+    fresh = RunningCalibration(session.station.arm, Description(), running._postures)
     assert fresh.error(replace(rows, measured=spoilt)) > 2 * running.error(rows)
     assert running.error(rows[:9]) == np.inf
 
 
-def test_it_ends_if_more_is_of_no_use_or_if_it_is_as_long_as_allowed(lived, tmp_path):
+def test_it_ends_if_more_is_of_no_use_or_if_it_is_as_long_as_allowed(session, tmp_path):
     table = tmp_path / "table.csv"
-    table.write_bytes(lived.table.read_bytes())
+    table.write_bytes(session.table.read_bytes())
     again = partial(run, Simulated("UR5", 1, FINE), tmp_path)
     assert again(most=10).reason.endswith("; the limit of 10 rows is reached")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("recalib.laboratory.live.session.SOON", len(lived.rows))
+        patch.setattr("recalib.laboratory.live.session.SOON", len(session.rows))
         patch.setattr("recalib.laboratory.live.session.USELESS", 0.5)
         assert again(error=1e-6).reason.endswith("10 more rows would reduce it by less than 50 %")
 
@@ -169,9 +168,9 @@ def test_postures_are_proposed_on_the_side_where_the_target_was_seen():
     postures = AllowedPostures(station.arm, home, station.limits, SPAN)
     proposing = RunningCalibration(station.arm, Description(), postures)
     for count in (4, 25):  # without, and with a calibration
-        seen = postures.joints[postures.joints[:, 0] < home[0]][:count]
-        mirrored = [posture + 2 * (home[0] - posture[0]) * np.eye(6)[0] for posture in seen]
-        rows = Observations(seen, station.real.poses(seen, noise=station.noise))
+        visible = postures.joints[postures.joints[:, 0] < home[0]][:count]
+        mirrored = [posture + 2 * (home[0] - posture[0]) * np.eye(6)[0] for posture in visible]
+        rows = Observations(visible, station.real.poses(visible, noise=station.noise))
         assert proposing.next_posture(rows, [])[0] > home[0]
         assert proposing.next_posture(rows, mirrored)[0] <= home[0]
         everywhere = [posture + 0.05 for posture in postures.joints]
@@ -210,11 +209,9 @@ def stuck(station, cells):
 
 
 PROTECTIVE = "the protective stop of the arm is on"
-STOPPED = {  # by what is said, what a station does
+STOPPED = {  # by the message, what a station does
     PROTECTIVE: {"moved": lambda station: raising(StationFailed(PROTECTIVE))},
-    "for 0.3 s the station has not answered when asked to move": {
-        "moved": lambda station: time.sleep(1)
-    },
+    "for 0.3 s the station has not answered when asked to move": {"moved": lambda _: time.sleep(1)},
     "after a move, elbow_joint is 0.05 rad or m from its command": {
         "moved": lambda station: station.shift(0, 0, 0.05, 0, 0, 0)
     },
@@ -249,15 +246,13 @@ STOPPED = {  # by what is said, what a station does
     "out of sight in 10 postures in a row.* try: a smaller --span": {
         "measured": lambda station, cells: cells if measured(station) < 2 else None
     },
-    "the target is out of sight in the first posture; try: start where the instrument sees it": {
-        "measured": lambda station, cells: None
-    },
+    "the target is out of sight in the first posture; try: start": {"measured": lambda *_: None},
     "the station's joints are joint_0, .*; expected: those of the arm": {
         "joints": [f"joint_{number}" for number in range(6)]
     },
     **{
-        f"the station's angles are {found}": {"angles": lambda station, angles, wrong=wrong: wrong}
-        for found, wrong in (
+        f"the station's angles are {text}": {"angles": lambda station, angles, wrong=wrong: wrong}
+        for text, wrong in (
             (r"\[0.0, .*, nan\]; expected: 6 finite numbers", [0.0] * 5 + [np.nan]),
             ("'none'; expected: numbers", "none"),
         )
@@ -269,7 +264,7 @@ STOPPED = {  # by what is said, what a station does
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },
     "limits of shoulder_pan_joint are the wrong way round": {
-        "limits": (np.full(6, 2.0), np.full(6, -2.0))
+        "limits": np.outer([2, -2], np.ones(6))
     },
     "asked to tell its angles, the station raised OSError: no route": {
         "angles": lambda station, angles: (
@@ -279,12 +274,12 @@ STOPPED = {  # by what is said, what a station does
 }
 
 
-@pytest.mark.parametrize(("found", "what"), STOPPED.items(), ids=STOPPED)
-def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(found, what, tmp_path):
-    station, lines = Spoilt(**what), []
-    with pytest.raises(StationFailed, match=found):
+@pytest.mark.parametrize(("message", "changes"), STOPPED.items(), ids=STOPPED)
+def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(message, changes, tmp_path):
+    station, lines = Spoilt(**changes), []
+    with pytest.raises(StationFailed, match=message):
         run(station, tmp_path, on_progress=lines.append)
-    if "joints" not in what:  # it was never asked for anything
+    if "joints" not in changes:  # it was never asked for anything
         assert station.calls.count("stop") == 1
         assert "move" not in station.calls[station.calls.index("stop") :]
         rows = (tmp_path / "table.csv").exists()
@@ -322,15 +317,15 @@ def test_joints_in_another_order_are_the_same_joints(tmp_path):
 @pytest.mark.usefixtures("all_postures")
 def test_the_way_home_is_asked_for_and_may_be_refused(tmp_path):
     box = Box(np.array([0.5, -0.7, 0.2]), np.array([1.0, 0.8, 0.4]))
-    station, home, asked = Simulated(), Simulated().stands, []
+    station, home, goals = Simulated(), Simulated().stands, []
 
     def ask(move):
-        asked.append(move.goal)
+        goals.append(move.goal)
         return Answer.END if np.array_equal(move.goal, home) else Answer.MOVE
 
-    ended = run(station, tmp_path, ask, error=1e-9, most=60, box=box)
-    assert ended.reason == "you ended it" and np.array_equal(asked[-1], home)
-    assert [move.tolist() for move, _ in station.moves] == [goal.tolist() for goal in asked[:-1]]
+    end = run(station, tmp_path, ask, error=1e-9, most=60, box=box)
+    assert end.reason == "you ended it" and np.array_equal(goals[-1], home)
+    assert [move.tolist() for move, _ in station.moves] == [goal.tolist() for goal in goals[:-1]]
 
 
 def test_an_arm_that_is_moved_by_hand_while_it_asks_is_not_sent(tmp_path):
@@ -369,9 +364,9 @@ def test_a_torn_row_is_dropped_and_nothing_else(tmp_path, monkeypatch):
     *_, last = whole.splitlines(keepends=True)
     for cut in (len(whole) - 1, len(whole) - len(last) // 2, whole.index(b"\n") + 5, 10):
         table.write_bytes(whole[:cut])
-        ended = run(Simulated(), tmp_path, few(2 - max(0, whole[:cut].count(b"\n") - 1)),
+        end = run(Simulated(), tmp_path, few(2 - max(0, whole[:cut].count(b"\n") - 1)),
                     lines.append)  # fmt: skip
-        assert "a row without its end was dropped: " in "".join(lines) and ended.rows in (2, 3)
+        assert "a row without its end was dropped: " in "".join(lines) and end.rows in (2, 3)
         assert whole.startswith(table.read_bytes())
         table.write_bytes(whole)
     write = os.write
@@ -420,9 +415,9 @@ def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs):
         def close(self):
             self.closed = threading.get_ident()
 
-    made = []
-    guarded = Guarded(lambda: made.append(Bound()) or made[0], Simulated().arm)
-    (station,) = made
+    stations = []
+    guarded = Guarded(lambda: stations.append(Bound()) or stations[0], Simulated().arm)
+    (station,) = stations
     if hangs:
         with pytest.raises(StationFailed, match="has not answered when asked to move"):
             guarded.move(station.angles(), 1.0)
@@ -431,11 +426,13 @@ def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs):
     assert station.closed is not None and (station.closed == station.opened) is not hangs
 
 
-LINE = "live tests.station.simulated:{} ur10_robot.urdf --tool tool0 --most 14"
+LINE = "live {} ur10_robot.urdf --tool tool0 --most 14"
 LINE += " --floor none --no-self-collision"  # which is tested where it is
 
+SIMULATED = "tests.station.simulated:Simulated"
 
-def typed(monkeypatch, *lines):
+
+def type_lines(monkeypatch, *lines):
     answers = iter([f"{line}\n" for line in lines])
     monkeypatch.setattr("sys.stdin.readline", lambda: next(answers), raising=False)
 
@@ -446,36 +443,36 @@ def test_a_skipped_posture_is_not_proposed_again_and_an_end_is_no_error(
     monkeypatch.chdir(tmp_path)
     proposed = []
     for lines in (("", "s", "q"), ("s", "q"), ("q",)):
-        typed(monkeypatch, *lines)
-        assert main(LINE.format("Simulated").split()) == DONE
-        told = capsys.readouterr()
-        proposed.append(re.findall(r"^tool from .* to (\(.*\)) mm", told.err, re.MULTILINE))
-        assert len(proposed[-1]) == len(lines) and "ended: you ended it" in told.err
-        assert told.out == (
+        type_lines(monkeypatch, *lines)
+        assert main(LINE.format(SIMULATED).split()) == DONE
+        printed = capsys.readouterr()
+        proposed.append(re.findall(r"^tool from .* to (\(.*\)) mm", printed.err, re.MULTILINE))
+        assert len(proposed[-1]) == len(lines) and "ended: you ended it" in printed.err
+        assert printed.out == (
             "2 rows in measurements.csv; a calibration needs 10; to continue, repeat the command\n"
         )
     (_, skipped, second), (third, fourth), (fifth,) = proposed
     assert second == third and fourth == fifth and len({skipped, second, fourth}) == 3
     (tmp_path / "measurements.csv").unlink()
-    assert main(LINE.format("Simulated").split()) == REFUSED
+    assert main(LINE.format(SIMULATED).split()) == REFUSED
     assert "measurements_skipped.csv: it has postures that were" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("number", ["INT", "TERM", "HUP", "QUIT", "TSTP"])
-def test_who_ends_or_suspends_it_stops_the_arm_first(number, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("name", ["INT", "TERM", "HUP", "QUIT", "TSTP"])
+def test_who_ends_or_suspends_it_stops_the_arm_first(name, tmp_path, monkeypatch, capsys):
     """Also who closes the terminal, or presses Ctrl-\\ or Ctrl-Z."""
     monkeypatch.chdir(tmp_path)
-    sent = getattr(signal, f"SIG{number}")
-    before = signal.getsignal(sent)
-    monkeypatch.setattr("sys.stdin.readline", lambda: os.kill(os.getpid(), sent), raising=False)
+    signum = getattr(signal, f"SIG{name}")
+    before = signal.getsignal(signum)
+    monkeypatch.setattr("sys.stdin.readline", lambda: os.kill(os.getpid(), signum), raising=False)
     stopped = []
     monkeypatch.setattr(Simulated, "stop", lambda station: stopped.append(station))
-    assert main(LINE.format("Simulated").split()) == REFUSED
+    assert main(LINE.format(SIMULATED).split()) == REFUSED
     assert "recalib: interrupted; the station was told to stop" in capsys.readouterr().err
-    assert len(stopped) == 1 and signal.getsignal(sent) == before
+    assert len(stopped) == 1 and signal.getsignal(signum) == before
 
 
 def test_without_a_station_nothing_is_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    assert main(LINE.format("Unheard").split()) == REFUSED
+    assert main(LINE.format("tests.station.simulated:Unheard").split()) == REFUSED
     assert "rows are in" not in capsys.readouterr().err and not list(tmp_path.iterdir())

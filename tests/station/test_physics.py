@@ -29,9 +29,8 @@ def postures(damaged: DamagedArm, count: int) -> np.ndarray:
     """(count, joints) rad, within the limits."""
     model = damaged.arm.model
     low, high = model.lowerPositionLimit, model.upperPositionLimit
-    return np.random.default_rng(0).uniform(
-        np.maximum(low, -3), np.minimum(high, 3), (count, len(low))
-    )
+    low, high = np.maximum(low, -3), np.minimum(high, 3)
+    return np.random.default_rng(0).uniform(low, high, (count, len(low)))
 
 
 @pytest.mark.parametrize("damaged", [bent(), intact("panda")], ids=["bent ur10", "panda"])
@@ -46,10 +45,8 @@ def test_joints_droop_by_their_torque_over_their_stiffness(damaged):
         standing = damaged.standing(joints) - damaged.arm.gravity_torque(standing) / stiffness
     expected = damaged.arm.forward(standing)[:, :3, 3] - damaged.forward(joints)[:, :3, 3]
     assert np.linalg.norm(expected, axis=1).max() > 2e-3
-    assert (
-        np.linalg.norm(droop - expected, axis=1).max()
-        < 0.01 * np.linalg.norm(expected, axis=1).min()
-    )
+    errors, droops = (np.linalg.norm(gaps, axis=1) for gaps in (droop - expected, expected))
+    assert errors.max() < 0.01 * droops.min()
 
 
 def test_encoders_say_what_was_asked_for_and_the_instrument_sees_the_target():
@@ -59,10 +56,10 @@ def test_encoders_say_what_was_asked_for_and_the_instrument_sees_the_target():
     angles = postures(damaged, 1)[0]
     station.move(angles, 0.5)
     assert np.array_equal(station.angles(), angles)
-    seen, pose = station.measure(), station.pose()
+    cells, pose = station.measure(), station.pose()
     expected = (pose @ target)[:3, 3] - [1, 0, 0]
-    assert np.allclose([seen["x [m]"], seen["y [m]"], seen["z [m]"]], expected)
-    assert list(seen)[3:] == ["qx", "qy", "qz", "qw"]
+    assert np.allclose([cells["x [m]"], cells["y [m]"], cells["z [m]"]], expected)
+    assert list(cells)[3:] == ["qx", "qy", "qz", "qw"]
 
 
 def test_identification_explains_droop():

@@ -9,9 +9,16 @@ import time
 import numpy as np
 import pytest
 
-from recalib import ProgramStation, StationFailed, load_arm, load_correction
+from recalib import (
+    Answer,
+    LiveSettings,
+    ProgramStation,
+    StationFailed,
+    calibrate_live,
+    load_arm,
+    load_correction,
+)
 from recalib.laboratory.command_line import DONE, main
-from recalib.laboratory.live.session import Answer, LiveSettings, calibrate_live
 from recalib.station import open_station
 from tests.conftest import ROOT, few_folds
 
@@ -40,15 +47,15 @@ ANSWERS = {
 def program(tmp_path, monkeypatch):
     """Starts a program that answers so; a request that has no answer ends it."""
     monkeypatch.chdir(tmp_path)
-    begun = []
+    stations = []
 
-    def begin(**answers):
+    def start(**answers):
         text = PROGRAM.format(answers=json.dumps(ANSWERS | answers))
-        begun.append(ProgramStation([sys.executable, "-c", text]))
-        return begun[-1]
+        stations.append(ProgramStation([sys.executable, "-c", text]))
+        return stations[-1]
 
-    yield begin
-    for station in begun:
+    yield start
+    for station in stations:
         station.close()
 
 
@@ -68,7 +75,7 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("answer", "says"),
+    ("answer", "message"),
     [
         ("[INFO] measuring", "answered '.INFO. measuring' to 'measure'; expected: a JSON object"),
         ("[1, 2]", "expected: a JSON object in a line. Messages for people belong on stderr"),
@@ -77,12 +84,12 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
         ("{}", "answered 'measure' without 'row'"),
     ],
 )
-def test_an_answer_that_is_none_is_told(program, answer, says):
-    with pytest.raises(StationFailed, match=says):
+def test_an_answer_that_is_none_is_told(program, answer, message):
+    with pytest.raises(StationFailed, match=message):
         program(measure=answer).measure()
 
 
-def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
+def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = PROGRAM.format(answers=json.dumps({"describe": json.dumps(DESCRIBED)}))
     station = ProgramStation([sys.executable, "-c", text])
@@ -91,18 +98,15 @@ def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
             station.angles()
     station.stop()
     station.close()
-
-
-def test_a_program_that_does_not_end_is_ended(monkeypatch):
     monkeypatch.setattr("recalib.station.program.PATIENCE", 0.1)
     text = f"import time; print({json.dumps(DESCRIBED)!r}, flush=True); time.sleep(60)"
-    station, began = ProgramStation([sys.executable, "-c", text]), time.monotonic()
+    station, start = ProgramStation([sys.executable, "-c", text]), time.monotonic()
     station.close()
-    assert time.monotonic() - began < 30
+    assert time.monotonic() - start < 30
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "message"),
     [
         ("nowhere --at all", "nowhere does not start: No such file or directory"),
         ("'unclosed", "is not a command line: No closing quotation"),
@@ -113,24 +117,24 @@ def test_a_program_that_does_not_end_is_ended(monkeypatch):
         ("sh -c 'exit 3'", "sh ended before it answered 'describe'"),
     ],
 )
-def test_what_is_no_station_is_told(text, says):
-    with pytest.raises(StationFailed, match=says):
+def test_what_is_no_station_is_told(text, message):
+    with pytest.raises(StationFailed, match=message):
         open_station(text)
 
 
 @pytest.mark.skipif(not shutil.which("node"), reason="needs node")
 def test_the_example_in_another_language_is_a_station(tmp_path, monkeypatch):
     monkeypatch.setattr("recalib.station.guarded.PATIENCE", 60)  # s: Node starts slowly
-    arm, left = load_arm("ur10_robot.urdf", "tool0"), iter([Answer.MOVE] * 10)
+    arm, answers = load_arm("ur10_robot.urdf", "tool0"), iter([Answer.MOVE] * 10)
     program = f"node {ROOT / 'examples' / 'station.js'}"
-    ended = calibrate_live(
+    end = calibrate_live(
         lambda: open_station(program),
         arm,
         tmp_path / "rows.csv",
         LiveSettings(),
-        lambda move: next(left, Answer.END),
+        lambda move: next(answers, Answer.END),
     )
-    assert ended == ("you ended it", 11)
+    assert end == ("you ended it", 11)
 
 
 @pytest.mark.slow  # a whole session
@@ -145,7 +149,7 @@ def test_the_example_in_python_is_a_station(tmp_path, capsys):
     station = runpy.run_path(str(example))["BentUR10"]()
     fresh = station.angles() + np.random.default_rng(0).uniform(-0.7, 0.7, (50, 6))
     found = load_correction(tmp_path / "new" / "correction.npz").calibration.predict(fresh)
-    gaps = found[:, :3, 3] - [station.seen(angles) for angles in fresh]
+    gaps = found[:, :3, 3] - [station.position_at(angles) for angles in fresh]
     assert np.linalg.norm(gaps, axis=1).mean() < 5e-4
 
 

@@ -15,7 +15,7 @@ import rerun as rr
 from watched_pictures import ShownPictures
 
 from recalib import StationFailed
-from recalib.station.opening import open_station
+from recalib.station import open_station
 from recalib.vision.views import projected
 from tests.conftest import ROOT
 from tests.logged import logged
@@ -55,9 +55,9 @@ def arm(tmp_path, monkeypatch):
 
 
 def module(monkeypatch, name: str, **members) -> None:
-    made = ModuleType(name)
-    vars(made).update(members)
-    monkeypatch.setitem(sys.modules, name, made)
+    fake = ModuleType(name)
+    vars(fake).update(members)
+    monkeypatch.setitem(sys.modules, name, fake)
 
 
 @pytest.fixture
@@ -82,9 +82,7 @@ def universal_robot(arm, monkeypatch):
 
     receive = {
         "getActualQ": lambda self: arm.now().tolist(),
-        "getActualQd": lambda self: (
-            (arm.goal - arm.start) / arm.seconds * (arm.part() < 1)
-        ).tolist(),
+        "getActualQd": lambda self: [*(arm.goal - arm.start) / arm.seconds * (arm.part() < 1)],
         "isEmergencyStopped": lambda self: arm.emergency,
         "isProtectiveStopped": lambda self: False,
         "__init__": lambda self, host: None,
@@ -111,23 +109,18 @@ class Future:
 @pytest.fixture
 def ros_arm(arm, monkeypatch):
     """Goals are accepted or not; a result has an error code, and comes when the arm stands."""
-    kept, times = {}, SimpleNamespace(canceled=False)
+    subscriptions, times = {}, SimpleNamespace(canceled=False)
 
-    class Result:
-        SUCCESSFUL, PATH_TOLERANCE_VIOLATED = 0, -4
+    def goal():
+        return SimpleNamespace(trajectory=SimpleNamespace(joint_names=[], points=[]))
 
-    class Goal:
-        def __init__(self):
-            self.trajectory = SimpleNamespace(joint_names=[], points=[])
-
-    def ended():
+    def outcome():
+        code, text = 0, ""  # SUCCESSFUL
         if arm.emergency or times.canceled:
             arm.halt()
-            code, text = Result.PATH_TOLERANCE_VIOLATED, "aborted"
+            code, text = -4, "aborted"  # PATH_TOLERANCE_VIOLATED
         elif arm.part() < 1:
             return None
-        else:
-            code, text = Result.SUCCESSFUL, ""
         return SimpleNamespace(result=SimpleNamespace(error_code=code, error_string=text))
 
     class Client:
@@ -141,53 +134,40 @@ def ros_arm(arm, monkeypatch):
             times.canceled = False
             handle = SimpleNamespace(
                 accepted=not arm.emergency,
-                get_result_async=lambda: Future(ended),
+                get_result_async=lambda: Future(outcome),
                 cancel_goal_async=lambda: setattr(times, "canceled", True),
             )
             return Future(lambda: handle)
 
-    class JointState:
-        @property
-        def name(self):
-            return JOINTS
+    def joint_state():
+        return SimpleNamespace(name=JOINTS, position=arm.now().tolist())
 
-        @property
-        def position(self):
-            return arm.now().tolist()
-
-    class Image:
-        def __init__(self):
-            self.height, self.width, self.step, self.encoding = 48, 64, 3 * 64 + 4, "rgb8"
-            self.data = bytes([9, 5, 7] * 64 + [0] * 4) * 48
-            sec, nanosec = divmod(time.time_ns(), 10**9)
-            self.header = SimpleNamespace(stamp=SimpleNamespace(sec=sec, nanosec=nanosec))
+    def image():
+        sec, nanosec = divmod(time.time_ns(), 10**9)
+        header = SimpleNamespace(stamp=SimpleNamespace(sec=sec, nanosec=nanosec))
+        layout = {"height": 48, "width": 64, "step": 3 * 64 + 4, "encoding": "rgb8"}
+        return SimpleNamespace(header=header, data=bytes([9, 5, 7] * 64 + [0] * 4) * 48, **layout)
 
     def spin(node):
         for _ in range(500):
-            for kind, callback in kept.items():
+            for kind, callback in subscriptions.items():
                 callback(kind())
             time.sleep(0.01)
 
     node = SimpleNamespace(
-        create_subscription=lambda kind, topic, callback, depth: kept.update({kind: callback}),
+        create_subscription=lambda kind, topic, callback, depth: subscriptions.update(
+            {kind: callback}
+        ),
         get_clock=lambda: SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=time.time_ns())),
-    )
-    follow = type("FollowJointTrajectory", (), {"Goal": Goal, "Result": Result})
-    duration = type(
-        "Duration",
-        (),
-        {
-            "__init__": lambda self, seconds: setattr(self, "seconds", seconds),
-            "to_msg": lambda self: self.seconds,
-        },
     )
     module(monkeypatch, "rclpy", init=lambda: None, create_node=lambda name: node, spin=spin)
     module(monkeypatch, "rclpy.action", ActionClient=Client)
+    duration = lambda seconds: SimpleNamespace(to_msg=lambda: seconds)  # noqa: E731
     module(monkeypatch, "rclpy.duration", Duration=duration)
     module(monkeypatch, "control_msgs")
-    module(monkeypatch, "control_msgs.action", FollowJointTrajectory=follow)
+    module(monkeypatch, "control_msgs.action", FollowJointTrajectory=SimpleNamespace(Goal=goal))
     module(monkeypatch, "sensor_msgs")
-    module(monkeypatch, "sensor_msgs.msg", JointState=JointState, Image=Image)
+    module(monkeypatch, "sensor_msgs.msg", JointState=joint_state, Image=image)
     module(monkeypatch, "trajectory_msgs")
     module(monkeypatch, "trajectory_msgs.msg", JointTrajectoryPoint=SimpleNamespace)
     monkeypatch.setenv("ARM", "/arm/follow_joint_trajectory")
@@ -239,7 +219,7 @@ def test_stop_ends_a_move_from_another_thread(station, arm):
 def test_a_picture_is_shown_with_its_corners_and_what_they_are_off_by(tmp_path):
     """Each arrow begins at a corner, and is a hundred times as long as its error."""
     cell = HandEyeCell(3, True)
-    (pose,) = cell.seen(cell.flange(1))
+    (pose,) = cell.board_poses(cell.flange(1))
     grey = cell.draw(pose)
     cv2.imwrite(str(tmp_path / "seen.png"), grey)
     with rr.RecordingStream("live") as rec:

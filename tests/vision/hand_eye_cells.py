@@ -1,8 +1,7 @@
-"""Cells for hand-eye calibrations: a flange that is not where it says, a camera and a board."""
+"""Cells for hand-eye calibrations: a flange with errors, a camera and a board."""
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -12,7 +11,16 @@ from recalib.vision.detection import Corners
 from recalib.vision.lens_search import find_lens
 from recalib.vision.lenses import Lens
 from recalib.vision.views import optics_of, projected, sighting
-from tests.vision.rendering import BOARD, LENS, frame
+from tests.vision.rendering import (
+    ABOVE,
+    BOARD,
+    FIXED,
+    IN_HAND,
+    LENS,
+    frame,
+    photograph_of,
+    placed,
+)
 
 NOISE = 0.15  # px
 
@@ -44,18 +52,8 @@ class HandEyeCell:
 
     def __post_init__(self):
         self.rng = np.random.default_rng([self.seed, self.in_hand, 47])
-        off = frame(0.2 * self.rng.uniform(-1, 1, 3), 0.05 * self.rng.uniform(-1, 1, 3))
-        middle = frame([0, 0, 0], [*-self.board.size / 2, 0])
-        if self.in_hand:  # the camera looks down, at a board on the table
-            self.camera = frame([0, 0, 0.3], [0.06, 0.02, 0.05]) @ off
-            self.target = frame([np.pi, 0, 0], [0.5, 0, 0.0]) @ off @ middle
-        else:
-            self.camera = frame([0, 0, np.pi / 2], [1.35, 0, 0.75]) @ frame([-2.0, 0, 0], [0] * 3)
-            self.camera = self.camera @ off
-            self.target = frame([0, 0, 0], [0, 0, 0.05]) @ off @ middle
-            if self.four_axes:  # the camera looks down, at a board on the tool
-                self.camera = frame([np.pi, 0, 0], [0.5, 0, 1.2]) @ off
-                self.target = frame([np.pi, 0, 0], [0.05, 0, -0.02]) @ off @ middle
+        where = IN_HAND if self.in_hand else ABOVE if self.four_axes else FIXED
+        self.camera, self.target = placed(where, self.board, self.rng)
 
     def flange(self, count: int) -> np.ndarray:
         """True poses (count, 4, 4) [m] of the flange, in which the whole board is seen."""
@@ -64,9 +62,9 @@ class HandEyeCell:
             tilts = self.rng.normal(size=(200, 3)) * [0.4, 0.4, 0.8]
             middle = self.board.points.mean(axis=0)
             places = self.rng.uniform([-0.15, -0.1, 0.5], [0.15, 0.1, 0.9], (200, 3))
-            seen = turned(tilts, places)
-            seen[:, :3, 3] -= seen[:, :3, :3] @ middle
-            flange = self._flange_of(seen)
+            boards = turned(tilts, places)
+            boards[:, :3, 3] -= boards[:, :3, :3] @ middle
+            flange = self._flange_of(boards)
             if self.four_axes:
                 turns = np.zeros((200, 3))
                 turns[:, 2] = self.rng.uniform(-2.5, 2.5, 200)
@@ -75,26 +73,27 @@ class HandEyeCell:
             found += [pose for pose in flange if self._sees(pose)]
         return np.array(found[:count])
 
-    def _flange_of(self, seen: np.ndarray) -> np.ndarray:
+    def _flange_of(self, boards: np.ndarray) -> np.ndarray:
+        """Poses of the flange with the board at these poses in the camera."""
         if self.in_hand:
-            return self.target @ np.linalg.inv(seen) @ np.linalg.inv(self.camera)
-        return self.camera @ seen @ np.linalg.inv(self.target)
+            return self.target @ np.linalg.inv(boards) @ np.linalg.inv(self.camera)
+        return self.camera @ boards @ np.linalg.inv(self.target)
 
-    def seen(self, flange: np.ndarray) -> np.ndarray:
+    def board_poses(self, flange: np.ndarray) -> np.ndarray:
         """Poses (..., 4, 4) [m] of the board in the camera."""
         between = np.linalg.inv(flange) if self.in_hand else flange
         return np.linalg.inv(self.camera) @ between @ self.target
 
     def _sees(self, flange: np.ndarray) -> bool:
-        pose = self.seen(flange)
+        pose = self.board_poses(flange)
         ahead = self.board.points @ pose[2, :3] + pose[2, 3]
         if ahead.min() < 0.3 or pose[2, 2] < 0.5:
             return False
         pixels, _ = projected(self.board.points, self.lens, pose)
         return bool(((pixels > 20) & (pixels < np.subtract(self.lens.size, 20))).all())
 
-    def said(self, flange: np.ndarray) -> np.ndarray:
-        """What the controller says (n, 4, 4): poses off by its errors."""
+    def reported(self, flange: np.ndarray) -> np.ndarray:
+        """Poses (n, 4, 4) that the controller reports, off by its errors."""
         size = len(flange), 3
         off = self.rotation * self.rng.standard_normal(size)
         return flange @ turned(off, self.position * self.rng.standard_normal(size))
@@ -102,7 +101,7 @@ class HandEyeCell:
     def views(self, flange: np.ndarray, noise: float = NOISE) -> list[Corners]:
         """All corners in a picture at each pose, off by some noise [px]."""
         views = []
-        for pose in self.seen(flange):
+        for pose in self.board_poses(flange):
             pixels, _ = projected(self.board.points, self.lens, pose)
             pixels = pixels + noise * self.rng.standard_normal(pixels.shape)
             views.append(Corners(np.arange(len(pixels)), pixels, 1.0))
@@ -112,35 +111,16 @@ class HandEyeCell:
         """By as many pictures, with the lens from them.
 
         Args:
-            height: how much larger than it is the height is that is given; None if none is.
+            height: the error [m] of the height that is given; None if none is given.
         """
         flange = self.flange(count)
         views = self.views(flange)
         lens = find_lens([(self.board, view) for view in views], self.lens.size).lens
-        seen = [sighting(self.board, lens, view, True, False) for view in views]
-        board, optics = optics_of(lens, seen)
+        sightings = [sighting(self.board, lens, view, True, False) for view in views]
+        board, optics = optics_of(lens, sightings)
         known = None if height is None else (float(self.target[2, 3]) + height, 1e-4)
-        return Sights(self.said(flange), board, self.in_hand, optics, known)
+        return Sights(self.reported(flange), board, self.in_hand, optics, known)
 
     def draw(self, pose: np.ndarray) -> np.ndarray:
-        """A picture (height, width) of the board at a pose in the camera, as drawn by OpenCV."""
-        pixels = 12 * self.board.modules.shape[0], 12 * self.board.modules.shape[1]
-        texture = cv2.resize(
-            np.where(self.board.modules, 20, 235).astype(np.uint8),
-            pixels[::-1],
-            interpolation=cv2.INTER_NEAREST,
-        )
-        x, y = (np.arange(2 * side) / 2 - 0.25 for side in self.lens.size)
-        grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 1, 2)
-        rays = cv2.undistortPoints(grid, self.lens.matrix, self.lens.distortion)
-        plane = np.linalg.inv(pose[:3, [0, 1, 3]])
-        places = cv2.perspectiveTransform(rays, plane).reshape(len(y), len(x), 2)
-        lookup = places * (texture.shape[::-1] / self.board.size) - 0.5
-        fine = cv2.remap(
-            texture, lookup.astype(np.float32), None, cv2.INTER_LINEAR, borderValue=200
-        )
-        picture = cv2.resize(fine, self.lens.size, interpolation=cv2.INTER_AREA).astype(float)
-        picture = cv2.GaussianBlur(picture, (0, 0), 0.7)
-        return np.clip(picture + 2 * self.rng.standard_normal(picture.shape), 0, 255).astype(
-            "uint8"
-        )
+        """A picture (height, width) of the board at a pose in the camera."""
+        return photograph_of(self.board, self.lens, pose, self.rng)

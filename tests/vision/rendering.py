@@ -1,7 +1,6 @@
 """A real arm before a camera: corners as a lens maps them, and whole pictures of the board."""
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import cv2
 import numpy as np
@@ -29,6 +28,66 @@ def frame(turn: list[float], place: list[float]) -> np.ndarray:
     return pose
 
 
+# Camera and board, each on the flange or in the base: one on the hand, which looks down at a table;
+# one beside the arm, which looks back at it; one above an arm of four axes.
+IN_HAND = frame([0, 0, 0.3], [0.06, 0.02, 0.05]), frame([np.pi, 0, 0], [0.5, 0, 0.0])
+FIXED = (
+    frame([0, 0, np.pi / 2], [1.35, 0, 0.75]) @ frame([-2.0, 0, 0], [0, 0, 0]),
+    frame([0, 0, 0], [0, 0, 0.05]),
+)
+ABOVE = frame([np.pi, 0, 0], [0.5, 0, 1.2]), frame([np.pi, 0, 0], [0.05, 0, -0.02])
+
+
+def placed(places: tuple[np.ndarray, np.ndarray], board: Board, random) -> tuple[np.ndarray, ...]:
+    """Camera and board (4, 4) about these places, off by up to 0.05 m and 0.2 rad along an axis."""
+    turn, place = (scale * random.uniform(-1, 1, 3) for scale in (0.2, 0.05))
+    off = frame(turn, place)
+    return places[0] @ off, places[1] @ off @ frame([0, 0, 0], [*-board.size / 2, 0])
+
+
+def photograph(
+    sheet: np.ndarray, scale: float, lens: Lens, pose: np.ndarray, random, blur: float = 0.7
+) -> np.ndarray:
+    """A picture (height, width) of a printed sheet in uneven light.
+
+    Args:
+        sheet: its greys, with white paper around what it shows.
+        scale: px of it a metre.
+        pose: of the upper left corner of what it shows, in the camera [m].
+        blur: px, standard deviation.
+    """
+    paper, optics = round(PAPER * scale), (lens.matrix, lens.distortion)
+    ends = (np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) * sheet.shape[::-1] - paper) / scale
+    corners, where = np.pad(ends, ((0, 0), (0, 1))), (pose[:3, :3], pose[:3, 3])
+    pixels, _ = cv2.projectPoints(corners, *where, *optics)
+    low = np.clip(pixels.min(axis=(0, 1)) - 50, 0, lens.size).astype(int)
+    high = np.clip(pixels.max(axis=(0, 1)) + 50, 0, lens.size).astype(int)
+    x, y = ((np.arange(FINE * a, FINE * b) + 0.5) / FINE - 0.5 for a, b in np.stack([low, high], 1))
+    grid = np.stack(np.meshgrid(x, y), axis=-1)
+    rays = cv2.undistortPoints(grid.reshape(-1, 1, 2), *optics)
+    plane = np.linalg.inv(pose[:3, [0, 1, 3]])  # of a ray where the sheet is
+    places = cv2.perspectiveTransform(rays, plane).reshape(grid.shape)
+    lookup = (places * scale + paper - 0.5).astype(np.float32)
+    fine = cv2.remap(sheet, lookup, None, cv2.INTER_LINEAR, borderValue=GREY)
+    picture = np.full(lens.size[::-1], float(GREY))
+    part = tuple((high - low).tolist())
+    picture[low[1] : high[1], low[0] : high[0]] = cv2.resize(
+        fine, part, interpolation=cv2.INTER_AREA
+    )
+    picture = cv2.GaussianBlur(picture, (0, 0), blur) * np.linspace(0.7, 1.0, len(picture[0]))
+    picture += 2 * random.standard_normal(picture.shape)
+    return np.clip(picture, 0, 255).astype(np.uint8)
+
+
+def photograph_of(board: Board, lens: Lens, pose: np.ndarray, random, blur: float = 0.7):
+    """A picture (height, width) of a board at a pose in the camera."""
+    modules = np.where(board.modules, BLACK, WHITE).astype(np.uint8)
+    printed = np.kron(modules, np.ones((DETAIL, DETAIL), np.uint8))
+    scale = printed.shape[1] / board.size[0]
+    sheet = np.pad(printed, round(PAPER * scale), constant_values=WHITE)
+    return photograph(sheet, scale, lens, pose, random, blur)
+
+
 @dataclass
 class Cell:
     """A Panda off as in docs/peers.md, a camera and a board, one on the hand, one beside the arm.
@@ -47,16 +106,8 @@ class Cell:
         self.arm = load_arm("panda.urdf", "panda_link8")
         self.real = Real(self.arm, self.seed)
         self.random = np.random.default_rng([self.seed, 2])
-        turn, place = (scale * self.random.uniform(-1, 1, 3) for scale in (0.2, 0.05))
-        off = frame(turn, place)
-        middle = frame([0, 0, 0], [*-self.board.size / 2, 0])
-        if self.in_hand:  # the board lies on the table, the camera looks along the flange
-            self.eye = frame([0, 0, 0.3], [0.06, 0.02, 0.05]) @ off  # in the tool
-            self.sheet = frame([np.pi, 0, 0], [0.5, 0, 0.0]) @ off @ middle  # in the base
-        else:  # the camera looks back at the arm, the board is on the flange
-            self.eye = frame([0, 0, np.pi / 2], [1.35, 0, 0.75]) @ frame([-2.0, 0, 0], [0] * 3)
-            self.eye = self.eye @ off
-            self.sheet = frame([0, 0, 0], [0, 0, 0.05]) @ off @ middle
+        where = IN_HAND if self.in_hand else FIXED
+        self.eye, self.sheet = placed(where, self.board, self.random)
 
     def tool(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) [m] of the real arm's tool in its base."""
@@ -73,10 +124,8 @@ class Cell:
 
     def project(self, pose: np.ndarray) -> np.ndarray:
         """Corners (c, 2) [px] of the board at a pose."""
-        turn, points = cv2.Rodrigues(pose[:3, :3])[0], self.board.points
-        return cv2.projectPoints(points, turn, pose[:3, 3], self.lens.matrix, self.lens.distortion)[
-            0
-        ].reshape(-1, 2)
+        lens, ends = self.lens, (self.board.points, pose[:3, :3], pose[:3, 3])
+        return cv2.projectPoints(*ends, lens.matrix, lens.distortion)[0].reshape(-1, 2)
 
     def view(self, pose: np.ndarray, noise: float = 0.0, random=None) -> Corners:
         """All corners of the board at a pose, off by some noise [px]."""
@@ -93,53 +142,16 @@ class Cell:
         while len(found) < count:
             joints = middle + wide * self.random.uniform(-1, 1, (400, 7))
             joints = joints[((joints > low) & (joints < high)).all(axis=1)]
-            for its, pose in zip(joints, self.board_poses(joints), strict=True):
+            for posture, pose in zip(joints, self.board_poses(joints), strict=True):
                 corners = pose[:3, :3] @ self.board.points.T + pose[:3, 3:]
                 facing = -(pose[:3, 2] @ pose[:3, 3]) / np.linalg.norm(pose[:3, 3])
-                near = corners[2].min() > 0.3 and corners[2].max() < 1.4
-                if near and facing < -0.55:
+                in_range = corners[2].min() > 0.3 and corners[2].max() < 1.4
+                if in_range and facing < -0.55:
                     pixels = self.project(pose)
                     if (pixels > 30).all() and (pixels < np.subtract(self.lens.size, 30)).all():
-                        found.append(its)
+                        found.append(posture)
         return np.array(found[:count])
 
-    @cached_property
-    def _texture(self) -> np.ndarray:
-        modules = np.where(self.board.modules, BLACK, WHITE).astype(np.uint8)
-        return np.kron(modules, np.ones((DETAIL, DETAIL), np.uint8))
-
-    def picture(self, pose: np.ndarray, blur: float = 0.7, noise: float = 2.0) -> np.ndarray:
-        """A picture (height, width) of the board at a pose, with uneven light.
-
-        Args:
-            blur: px, standard deviation.
-            noise: of 255.
-        """
-        left, top, right, bottom = self._about(pose)
-        x, y = (
-            (np.arange(FINE * (end - at)) + 0.5) / FINE - 0.5 + at
-            for at, end in ((left, right), (top, bottom))
-        )
-        grid = np.stack(np.meshgrid(x, y), axis=-1)
-        rays = cv2.undistortPoints(grid.reshape(-1, 1, 2), self.lens.matrix, self.lens.distortion)
-        plane = np.linalg.inv(pose[:3, [0, 1, 3]])  # of a ray where the board is
-        places = cv2.perspectiveTransform(rays, plane).reshape(grid.shape)
-        scale = self._texture.shape[::-1] / self.board.size
-        lookup = (places * scale - 0.5).astype(np.float32)
-        fine = cv2.remap(self._texture, lookup, None, cv2.INTER_LINEAR, borderValue=GREY)
-        paper = ((places > -PAPER) & (places < self.board.size + PAPER)).all(axis=-1)
-        inside = ((places > 0) & (places < self.board.size)).all(axis=-1)
-        fine[paper & ~inside] = WHITE
-        coarse = cv2.resize(fine, (right - left, bottom - top), interpolation=cv2.INTER_AREA)
-        picture = np.full(self.lens.size[::-1], float(GREY))
-        picture[top:bottom, left:right] = coarse
-        picture = cv2.GaussianBlur(picture, (0, 0), blur) * np.linspace(0.7, 1.0, len(picture[0]))
-        picture += noise * self.random.standard_normal(picture.shape)
-        return np.clip(picture, 0, 255).astype(np.uint8)
-
-    def _about(self, pose: np.ndarray) -> np.ndarray:
-        """The part of a picture [px] with the board in it: left, top, right, bottom."""
-        pixels, margin = self.project(pose), 150
-        low = np.clip(pixels.min(axis=0) - margin, 0, self.lens.size)
-        high = np.clip(pixels.max(axis=0) + margin, 0, self.lens.size)
-        return np.concatenate([low, high]).astype(int)
+    def picture(self, pose: np.ndarray, blur: float = 0.7) -> np.ndarray:
+        """A picture (height, width) of the board at a pose."""
+        return photograph_of(self.board, self.lens, pose, self.random, blur)

@@ -35,7 +35,7 @@ def write_joints(path: Path, cell: Cell, joints: np.ndarray) -> None:
     with path.open("w", newline="") as stream:
         writer = csv.writer(stream)
         writer.writerow(["picture", *(f"{name} [rad]" for name in cell.arm.joints)])
-        writer.writerows([f"{row:03}.png", *its] for row, its in enumerate(joints))
+        writer.writerows([f"{row:03}.png", *angles] for row, angles in enumerate(joints))
 
 
 def write_session(
@@ -81,10 +81,10 @@ def write_views(
     folder.mkdir(parents=True, exist_ok=True)
     write_joints(folder / "joints.csv", cell, joints)
     table = read_table(folder / "joints.csv")
-    shown = [
+    observed = [
         Picture(row, name, corners=view, error=0.2, pose=board_pose(cell.board, lens, view))
         for row, (name, view) in enumerate(zip(table.cells["picture"], views, strict=True), 1)
     ]
-    result = Observed(table, cell.board, own, given, cell.in_hand, shown, [], camera, board)
+    result = Observed(table, cell.board, own, given, cell.in_hand, observed, [], camera, board)
     write_new(folder / "observed", result.files())
     return folder / "observed"

@@ -13,14 +13,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, RecalibError, load_arm
+from recalib import InvalidFile, RecalibError, calibrate_arm, calibrate_pictures, load_arm
 from recalib.identification import WAYS
-from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures import observe as observing
 from recalib.laboratory.pictures.observe import observe
 from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.summary import verdict
 from recalib.vision.detection import Corners, find_corners
@@ -65,32 +63,32 @@ def session(tmp_path_factory):
 
 @pytest.mark.slow
 def test_pictures_lead_to_an_arm_that_is_right_to_half_a_millimetre(session):
-    made, draw = session / "calibration", Draw(3, in_hand=False)
-    arguments = [str(session / "observed"), "--tool=panda_link8", f"--out={made}"]
+    out, draw = session / "calibration", Draw(3, in_hand=False)
+    arguments = [str(session / "observed"), "--tool=panda_link8", f"--out={out}"]
     assert main(["calibrate", "panda.urdf", *arguments]) == DONE
-    tool = tomllib.loads((made / "hand_eye.toml").read_text())
-    arm = load_arm(made / "arm.urdf", tool["board"]["in"])
+    tool = tomllib.loads((out / "hand_eye.toml").read_text())
+    arm = load_arm(out / "arm.urdf", tool["board"]["in"])
     assert draw.judge(arm.forward(draw.fresh))[0] < 0.5
-    lens = read_lens(made / "lens.yaml")
+    lens = read_lens(out / "lens.yaml")
     assert np.allclose(lens.matrix, LENS.matrix, atol=2)
     held_out, as_right = tool["held_out"], tool["arm_as_right"]["held_out"]
     for way in ("in blocks", "at random"):
         assert held_out[way]["millimetres"] < 0.5 and held_out[way]["pixels"] < 0.1
         assert as_right[way]["millimetres"] > 2 and as_right[way]["pixels"] > 2
     assert "static_transform_publisher --x " in tool["board"]["ros"]
-    assert f"the camera in {tool['camera']['in']} of arm.urdf" in (made / "summary.txt").read_text()
+    assert f"the camera in {tool['camera']['in']} of arm.urdf" in (out / "summary.txt").read_text()
 
 
 @pytest.mark.slow
 def test_what_was_found_in_each_picture_is_told(session):
-    told = (session / "observed" / "summary.txt").read_text()
-    assert told.startswith(f"{PICTURES} of {PICTURES + len(BAD)} pictures are used; reprojection")
+    text = (session / "observed" / "summary.txt").read_text()
+    assert text.startswith(f"{PICTURES} of {PICTURES + len(BAD)} pictures are used; reprojection")
     page = (session / "observed" / "page.html").read_text()
     for row, reason in BAD.items():
         name = f"{row - 1:03}.png"
-        said = next(line for line in told.splitlines() if line.startswith(name))
-        assert reason in said and f"(row {row})" in said and reason in page
-    assert "not in joints.csv: spare.png\n" in told
+        line = next(line for line in text.splitlines() if line.startswith(name))
+        assert reason in line and f"(row {row})" in line and reason in page
+    assert "not in joints.csv: spare.png\n" in text
     assert page.count("<img") == PICTURES + 4 and 'src="http' not in page
 
 
@@ -119,7 +117,7 @@ def test_pixels_are_read_and_weighed(observed, calibrated):
 
 
 @pytest.mark.parametrize(
-    ("file", "change", "said"),
+    ("file", "change", "message"),
     [
         ("setup.toml", ('"fixed"', '"roof"'), "camera or lens_from_pictures is not as observe"),
         ("setup.toml", ('"camera"', '"two words"'), "camera_name or board_name is not as"),
@@ -127,20 +125,16 @@ def test_pixels_are_read_and_weighed(observed, calibrated):
         ("corners.csv", ("\n003.png,", "\n99,"), "003.png has 0 corners"),
         ("corners.csv", ("\n003.png,7,", "\n3,70,"), "a corner is not among the board's 24"),
         ("corners.csv", ("\n003.png,7,", "\n003.png,6,"), "003.png has a corner twice"),
-        (
-            "corners.csv",
-            ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"),
-            "expected: up to 100000 px",
-        ),
+        ("corners.csv", ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"), "expected: up to 100000 p"),
         ("measurements.csv", ("picture,", "a picture,"), "unknown column 'a picture'"),
     ],
 )
-def test_a_folder_that_was_changed_is_refused(file, change, said, observed, tmp_path, capsys):
+def test_a_folder_that_was_changed_is_refused(file, change, message, observed, tmp_path, capsys):
     shutil.copytree(observed[0], tmp_path, dirs_exist_ok=True)
     (tmp_path / file).write_text((tmp_path / file).read_text().replace(*change))
     arguments = [str(tmp_path), "--tool=panda_link8", f"--out={tmp_path / 'new'}"]
     assert main(["calibrate", "panda.urdf", *arguments]) == REFUSED
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 WRONG_CORNERS = {  # what becomes of the pixels (c, 2) of one picture, or of all
@@ -162,7 +156,7 @@ def test_corners_that_no_board_can_have_are_refused(wrong, every, observed, tmp_
     shutil.copytree(observed[0], tmp_path, dirs_exist_ok=True)
     path, random = tmp_path / "corners.csv", np.random.default_rng(0)
     header, *rows = [row.split(",") for row in path.read_text().splitlines()]
-    for name in {row[0] for row in rows} if every else ["003.png"]:
+    for name in dict.fromkeys(row[0] for row in rows) if every else ["003.png"]:
         own = [row for row in rows if row[0] == name]
         pixels = np.array([row[2:] for row in own], dtype=float)
         for row, (u, v) in zip(own, WRONG_CORNERS[wrong](pixels, random), strict=True):
@@ -180,10 +174,10 @@ def test_rows_may_be_taken_out_and_moved(observed, tmp_path):
     header, first, *others = path.read_text().splitlines()
     path.write_text("\n".join([header, *others[:0:-1], first]))
     arm = load_arm("panda.urdf", "panda_link8")
-    (left,), (whole,) = (Cameras.read([folder], arm).sessions for folder in (tmp_path, observed[0]))
+    (copy,), (whole,) = (Cameras.read([folder], arm).sessions for folder in (tmp_path, observed[0]))
     rows = [*range(PICTURES - 1, 1, -1), 0]
-    assert np.array_equal(left.rows.joints, whole.rows.joints[rows])
-    for row, view in zip(rows, left.views, strict=True):
+    assert np.array_equal(copy.rows.joints, whole.rows.joints[rows])
+    for row, view in zip(rows, copy.views, strict=True):
         assert np.array_equal(view.pixels, whole.views[row].pixels)
 
 
@@ -198,7 +192,7 @@ def test_a_board_of_another_size_is_doubted(observed, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("table", "said"),
+    ("table", "message"),
     [
         ("j [rad]\n0\n", "column 'picture' is missing"),
         ("picture,j [rad]\na.png,0\na.png,1\n", "'a.png' is in more than one row"),
@@ -207,18 +201,18 @@ def test_a_board_of_another_size_is_doubted(observed, tmp_path):
         ("picture,j [deg]\ngrey.png,abc\n", "row 1 of column 'j' is 'abc'; expected: a number"),
     ],
 )
-def test_what_cannot_be_observed_is_refused(table, said, tmp_path, capsys):
+def test_what_cannot_be_observed_is_refused(table, message, tmp_path, capsys):
     (tmp_path / "joints.csv").write_text(table)
     main(["board", "--out", str(tmp_path / "board")])
     cv2.imwrite(str(tmp_path / "grey.png"), np.full((480, 640), 90, np.uint8))
     arguments = [str(tmp_path), str(tmp_path / "joints.csv"), f"--out={tmp_path / 'observed'}"]
     board = f"--board={tmp_path / 'board' / 'board.toml'}"
     assert main(["observe", *arguments, board]) == REFUSED
-    assert re.search(said, capsys.readouterr().err)
+    assert re.search(message, capsys.readouterr().err)
 
 
-def test_a_lens_of_another_camera_leaves_more_than_one_of_these_pictures(taken):
-    _, _, (*files, lens) = taken(12)
+def test_a_lens_of_another_camera_leaves_more_than_one_of_these_pictures(take_pictures):
+    _, _, (*files, lens) = take_pictures(12)
     lens.write_text(LENS.as_ros())
     result = observe(*files, lens)
     own = re.search(r"lens as given \(one from these .* ([\d.]+) px\)", result.summary())[1]
@@ -242,10 +236,10 @@ def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, c
 
 
 @pytest.fixture
-def taken(tmp_path, monkeypatch):
-    """Files that observe needs, and what it finds in so many pictures: nobody has to look."""
+def take_pictures(tmp_path, monkeypatch):
+    """Write the files that observe needs, and replace the search for corners in the pictures."""
 
-    def take(count: int) -> tuple:
+    def pictures(count: int) -> tuple:
         cell = Cell(5)
         joints, random = cell.postures(count), np.random.default_rng(6)
         views = []
@@ -263,13 +257,13 @@ def taken(tmp_path, monkeypatch):
         files = (tmp_path / name for name in ("joints.csv", "board.toml", "lens.yaml"))
         return cell, views, (tmp_path, *files)
 
-    return take
+    return pictures
 
 
-def test_a_camera_has_its_name_and_a_board_that_of_its_file(taken, tmp_path, capsys):
-    _, _, (folder, joints, board, lens) = taken(12)
-    named = board.rename(board.with_name("on the table.toml"))
-    files = [str(folder), str(joints), f"--board={named}", f"--lens={lens}"]
+def test_a_camera_has_its_name_and_a_board_that_of_its_file(take_pictures, tmp_path, capsys):
+    _, _, (folder, joints, board, lens) = take_pictures(12)
+    renamed = board.rename(board.with_name("on the table.toml"))
+    files = [str(folder), str(joints), f"--board={renamed}", f"--lens={lens}"]
     out = f"--out={tmp_path / 'observed'}"
     assert main(["observe", *files, "--name=left-1", out]) == DONE
     setup = tomllib.loads((tmp_path / "observed" / "setup.toml").read_text())
@@ -278,30 +272,30 @@ def test_a_camera_has_its_name_and_a_board_that_of_its_file(taken, tmp_path, cap
     assert "--name is 'left 1'; expected: letters, digits, _ and -" in capsys.readouterr().err
 
 
-def test_reprojection_errors_are_root_mean_squares(taken):
-    cell, views, files = taken(12)
+def test_reprojection_errors_are_root_mean_squares(take_pictures):
+    cell, views, files = take_pictures(12)
     files[1].write_text(files[1].read_text().replace("000.png", "./000.png"))
     result = observe(*files)
     assert len(result.used) == 12 and result.given and not result.unlisted
     squares = []
-    for its, view in zip(result.pictures, views, strict=True):
-        kept = its.corners
-        assert np.array_equal(kept.pixels, view.pixels[kept.numbers])
-        off = kept.pixels - cell.project(its.pose)[kept.numbers]
+    for picture, view in zip(result.pictures, views, strict=True):
+        corners = picture.corners
+        assert np.array_equal(corners.pixels, view.pixels[corners.numbers])
+        off = corners.pixels - cell.project(picture.pose)[corners.numbers]
         squares.append((off**2).sum(axis=1).mean())
-        assert its.error == pytest.approx(np.sqrt(squares[-1]), rel=1e-6)
+        assert picture.error == pytest.approx(np.sqrt(squares[-1]), rel=1e-6)
     assert result.error == pytest.approx(np.sqrt(np.mean(squares) / 2), rel=1e-6)
 
 
-def test_a_picture_of_which_few_corners_fit_is_refused(taken):
+def test_a_picture_of_which_few_corners_fit_is_refused(take_pictures):
     """The rest would be too few for `recalib calibrate`."""
-    _, views, files = taken(12)
+    _, views, files = take_pictures(12)
     few = [0, 2, 5, 9, 12, 15, 20, 23]
     pixels = views[4].pixels[few]
     pixels[3] += 2.0
     views[4] = Corners(views[4].numbers[few], pixels, 1.0)
-    refused = observe(*files).pictures[4]
-    assert re.search(r"[4-7] of 8 corners fit; expected: at least 8", refused.reason)
+    picture = observe(*files).pictures[4]
+    assert re.search(r"[4-7] of 8 corners fit; expected: at least 8", picture.reason)
     for number in {*range(12)} - {4}:
         pixels = views[number].pixels[few]
         pixels[3] += 2.0
@@ -338,8 +332,8 @@ NO_PICTURES = {  # by name: what is in the file, and why it is refused
 }
 
 
-def test_what_is_no_picture_is_refused_in_a_sentence(taken, monkeypatch):
-    *_, (folder, joints, board, lens) = taken(11)
+def test_what_is_no_picture_is_refused_in_a_sentence(take_pictures, monkeypatch):
+    *_, (folder, joints, board, lens) = take_pictures(11)
     row = joints.read_text().splitlines()[-1].partition(",")[2]
     with joints.open("a") as table:
         for name, (content, _) in NO_PICTURES.items():
@@ -347,8 +341,8 @@ def test_what_is_no_picture_is_refused_in_a_sentence(taken, monkeypatch):
             if content is not None:
                 (folder / name).write_bytes(content)
     known = observing.find_corners
-    looks = lambda board, grey: (known if grey.shape == (960, 1280) else find_corners)(board, grey)  # noqa: E731
-    monkeypatch.setattr(observing, "find_corners", looks)
+    find = lambda board, grey: (known if grey.shape == (960, 1280) else find_corners)(board, grey)  # noqa: E731
+    monkeypatch.setattr(observing, "find_corners", find)
     result = observe(folder, joints, board, lens)
     assert len(result.used) == 11
     for picture, (_, reason) in zip(result.pictures[11:], NO_PICTURES.values(), strict=True):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import load_arm
+from recalib import calibrate_pictures, load_arm
 from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.pictures.sessions import calibrate_pictures, read_folders
+from recalib.laboratory.pictures.sessions import read_folders
 from recalib.laboratory.report.summary import verdict
 from recalib.laboratory.tables.description import Description
 from recalib.vision import lens_search
@@ -52,10 +52,10 @@ def views_of(lens: Lens, count: int = 25, seed: int = 0) -> list[tuple]:
         if ((BOARD.points @ pose[:3, :3].T + pose[:3, 3])[:, 2] < 0.02).any():
             continue
         pixels, _ = projected(BOARD.points, lens, pose)
-        (seen,) = np.nonzero(((pixels > 5) & (pixels < np.array(SIZE) - 5)).all(axis=1))
-        if len(seen) > 12:
-            noisy = pixels[seen] + NOISE * rng.standard_normal((len(seen), 2))
-            views.append((BOARD, Corners(seen, noisy, 1.0)))
+        (visible,) = np.nonzero(((pixels > 5) & (pixels < np.array(SIZE) - 5)).all(axis=1))
+        if len(visible) > 12:
+            noisy = pixels[visible] + NOISE * rng.standard_normal((len(visible), 2))
+            views.append((BOARD, Corners(visible, noisy, 1.0)))
     return views
 
 
@@ -87,7 +87,7 @@ def test_a_search_that_does_not_come_to_its_end_says_so(monkeypatch):
 
 @pytest.fixture
 def wide(tmp_path):
-    """A camera whose lens is not mild, and what makes a folder of its pictures."""
+    """A camera whose lens is not mild, and a function that makes a folder of its pictures."""
     cell = Cell(2, lens=replace(LENS, distortion=np.array([-0.5, 0.45, 0.0, 0.0, -0.35])))
     joints = cell.postures(30)
     views = [cell.view(pose, NOISE) for pose in cell.board_poses(joints)]
@@ -115,8 +115,8 @@ def test_a_lens_that_is_not_mild_is_found_and_the_arm_is_not_blamed(wide):
 
 def test_a_given_lens_that_leaves_much_more_than_another_is_doubted_before_the_arm(wide):
     (cell, observed), arm = wide, load_arm("panda.urdf", "panda_link8")
-    near = replace(cell.lens, distortion=cell.lens.distortion * [1, 1, 1, 1, 0.9])
-    (doubt,) = Cameras.read([observed(near)], arm).doubts
+    wrong = replace(cell.lens, distortion=cell.lens.distortion * [1, 1, 1, 1, 0.9])
+    (doubt,) = Cameras.read([observed(wrong)], arm).doubts
     assert doubt.startswith("the given lens has a reprojection error of")
     assert not Cameras.read([observed(cell.lens)], arm).doubts
 

@@ -1,4 +1,4 @@
-"""A live calibration with a camera goes by the corners of its pictures."""
+"""A station with a camera, and a live calibration that goes by the corners of its pictures."""
 
 import csv
 from dataclasses import replace
@@ -6,15 +6,17 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from recalib import Description, InvalidFile, Observations
+from recalib import Description, InvalidFile, Observations, RecalibError, StationFailed
+from recalib.laboratory.command_line import REFUSED, main
 from recalib.laboratory.live.record import Record
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import SOON
 from recalib.station import BoardInPictures, PicturesOfABoard
+from recalib.vision.detection import Corners
 from tests.bars.live import FINER, pictured
 from tests.vision.rendering import Cell
-from tests.vision.test_stations import Photographs
 
 
 @pytest.fixture(
@@ -56,7 +58,7 @@ def test_no_picture_is_taken_in_vain_once_there_is_a_calibration(live):
 
 
 @pytest.fixture
-def begun(tmp_path, monkeypatch):
+def session(tmp_path, monkeypatch):
     """A table with three pictures, each in a row."""
     monkeypatch.chdir(tmp_path)
     cell = Cell(3)
@@ -73,44 +75,114 @@ def begun(tmp_path, monkeypatch):
 
 def read_again(cell):
     """The table by another process."""
-    record = Record(
-        "table.csv", cell.arm, Description(), BoardInPictures(cell.board, cell.lens, False)
-    )
+    pictures = BoardInPictures(cell.board, cell.lens, False)
+    record = Record("table.csv", cell.arm, Description(), pictures)
     record.close()
     return record.observations
 
 
-def test_a_calibration_that_goes_on_searches_its_pictures_again(begun):
-    cell, before = begun
+def test_a_calibration_that_goes_on_searches_its_pictures_again(session):
+    cell, before = session
     again = read_again(cell)
     assert np.array_equal(again.measured, before.measured)
     for name in ("spread", "slopes", "information", "gradient", "pixels"):
         assert np.array_equal(getattr(again.optics, name), getattr(before.optics, name))
 
 
-@pytest.mark.parametrize("gone", ["removed", "empty", "another size", "another board"])
-def test_a_picture_that_is_not_what_it_was_is_told_before_anything_moves(begun, tmp_path, gone):
-    (cell, _), picture = begun, tmp_path / "1.png"
-    if gone == "removed":
+@pytest.mark.parametrize("change", ["removed", "empty", "another size", "another board"])
+def test_a_picture_that_is_not_what_it_was_is_told_before_anything_moves(session, tmp_path, change):
+    (cell, _), picture = session, tmp_path / "1.png"
+    if change == "removed":
         picture.unlink()
-    elif gone == "empty":
+    elif change == "empty":
         picture.write_bytes(b"")
-    elif gone == "another size":
+    elif change == "another size":
         cell = replace(cell, lens=replace(cell.lens, size=(1280, 962)))
     else:
         cell = replace(cell, board=replace(cell.board, dictionary="5X5_100"))
     reason = {"removed": "there is no such file", "empty": "it is not a picture"}
-    with pytest.raises(
-        InvalidFile, match=rf"\d.png: {reason.get(gone, 'it does not show the board')}"
-    ):
+    reason = reason.get(change, "it does not show the board")
+    with pytest.raises(InvalidFile, match=rf"\d.png: {reason}"):
         read_again(cell)
 
 
-def test_a_table_without_pictures_is_none_for_a_camera(begun, tmp_path):
-    cell, _ = begun
+def test_a_table_without_pictures_is_none_for_a_camera(session, tmp_path):
+    cell, _ = session
     with open("table.csv", newline="") as file:
         rows = [row[:-8] + row[-7:] for row in csv.reader(file)]
     with open("table.csv", "w", newline="") as file:
         csv.writer(file).writerows(rows)
     with pytest.raises(InvalidFile, match="column 'picture' is missing"):
         read_again(cell)
+
+
+class Photographs:
+    """A station that measures whatever picture is at a path."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def measure(self):
+        return {"picture": str(self.path)}
+
+
+@pytest.mark.parametrize("in_hand", [False, True], ids=["fixed", "hand"])
+def test_what_stands_is_measured_in_what_moves(in_hand, tmp_path):
+    """The camera in the board where it is on the hand, else the board in the camera."""
+    cell, path = Cell(3, in_hand), tmp_path / "000.png"
+    (pose,) = cell.board_poses(cell.postures(1))
+    cv2.imwrite(str(path), cell.picture(pose))
+    camera = PicturesOfABoard(Photographs(path), BoardInPictures(cell.board, cell.lens, in_hand))
+    cells = camera.measure()
+    expected = np.linalg.inv(pose) if in_hand else pose
+    assert cells.pop("picture") == str(path)
+    assert [cells[f"{axis} [m]"] for axis in "xyz"] == pytest.approx(expected[:3, 3], abs=2e-3)
+    turn = Rotation.from_quat([cells[f"q{axis}"] for axis in "xyzw"])
+    assert (turn * Rotation.from_matrix(expected[:3, :3]).inv()).magnitude() < 2e-3
+    with pytest.raises(StationFailed, match="000.png is the same picture as the one before: is it"):
+        camera.measure()
+
+
+def test_what_is_no_picture_of_it_is_told(tmp_path):
+    station, cell = Photographs(tmp_path / "grey.png"), Cell(3)
+    camera = PicturesOfABoard(station, BoardInPictures(cell.board, cell.lens, False))
+    for cells, message in (
+        ({"x [m]": 1.0}, "the station measured x .m.; expected: picture"),
+        ({"picture": "nowhere.png"}, "nowhere.png: there is no such file"),
+    ):
+        station.measure = lambda cells=cells: cells
+        with pytest.raises(RecalibError, match=message):
+            camera.measure()
+    del station.measure
+    cv2.imwrite(str(tmp_path / "grey.png"), np.full((100, 200), 128, np.uint8))
+    with pytest.raises(StationFailed, match="has 200 x 100 pixels; expected, as by the lens: 1280"):
+        camera.measure()
+    grey = np.full(cell.lens.size[::-1], 128, np.uint8)
+    cv2.imwrite(str(tmp_path / "grey.png"), grey)
+    assert camera.measure() is None
+    station.measure = lambda: None
+    assert camera.measure() is None
+
+
+def test_a_picture_with_few_good_corners_is_no_sight_of_the_board(tmp_path, monkeypatch):
+    """`observe` would refuse it at the end."""
+    cell, path = Cell(3), tmp_path / "000.png"
+    cv2.imwrite(str(path), cell.picture(*cell.board_poses(cell.postures(1))))
+
+    def few(board, lens, view):
+        return Corners(view.numbers[:7], view.pixels[:7], view.softness)
+
+    monkeypatch.setattr("recalib.station.pictures.good_corners", few)
+    pictures = BoardInPictures(cell.board, cell.lens, False)
+    assert PicturesOfABoard(Photographs(path), pictures).measure() is None
+
+
+def test_a_board_needs_a_lens_and_room_for_its_pictures(tmp_path, capsys):
+    words = ["live", "nowhere", "ur10_robot.urdf", "--tool=tool0", "--board=board.toml"]
+    assert main([*words, f"--out={tmp_path / 'new'}"]) == REFUSED
+    assert "--lens is missing; expected: the calibration of the lens" in capsys.readouterr().err
+    (tmp_path / "new_observed").mkdir()
+    (tmp_path / "new_observed" / "page.html").touch()
+    words = ["live", "nowhere", "ur10_robot.urdf", "--board=board.toml", "--lens=lens.yaml"]
+    assert main([*words, f"--out={tmp_path / 'new'}"]) == REFUSED
+    assert "new_observed" in capsys.readouterr().err

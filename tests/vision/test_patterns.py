@@ -6,14 +6,14 @@ import cv2
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidFile
+from recalib import InvalidFile
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import Unusable, find_corners
 from recalib.vision.views import board_pose, reprojection
-from tests.vision.rendering import LENS, frame
+from tests.vision.rendering import LENS, PAPER, frame, photograph
+from tests.vision.test_boards import BOARDS
 
 SCALE = 5000  # texture px a m: modules are of whole ones
-MARGIN = 0.03  # m of white paper
 POSES = [
     frame([0.1, -0.2, 0.05], [0.0, 0.0, 0.55]),
     frame([0.3, 0.4, -0.4], [0.02, 0.01, 0.6]),
@@ -28,16 +28,16 @@ class Sheet:
     size: tuple[float, float]
 
     def __post_init__(self):
-        shape = [round(SCALE * (side + 2 * MARGIN)) for side in self.size[::-1]]
+        shape = [round(SCALE * (side + 2 * PAPER)) for side in self.size[::-1]]
         self.ink = np.full(shape, 235, np.uint8)
 
     def square(self, x: float, y: float, side: float, grey: int = 20) -> None:
-        low, high = (np.round(SCALE * (np.array([x, y]) + MARGIN + end)) for end in (0, side))
+        low, high = (np.round(SCALE * (np.array([x, y]) + PAPER + end)) for end in (0, side))
         (left, top), (right, bottom) = low.astype(int), high.astype(int)
         self.ink[max(0, top) : bottom, max(0, left) : right] = grey
 
     def circle(self, x: float, y: float, radius: float) -> None:
-        centre = [round(16 * (SCALE * (at + MARGIN) - 0.5)) for at in (x, y)]
+        centre = [round(16 * (SCALE * (at + PAPER) - 0.5)) for at in (x, y)]
         cv2.circle(self.ink, centre, round(16 * SCALE * radius), 20, -1, cv2.LINE_AA, 4)
 
     def modules(self, x: float, y: float, side: float, black: np.ndarray) -> None:
@@ -46,22 +46,10 @@ class Sheet:
             grey = 20 if black[row, column] else 235
             self.square(x + column * module, y + row * module, module, grey)
 
-    def picture(self, pose: np.ndarray, blur: float = 0.7) -> np.ndarray:
+    def picture(self, pose: np.ndarray) -> np.ndarray:
         """Of the sheet with its middle at a pose in the camera."""
-        x, y = (np.arange(2 * side) / 2 - 0.25 for side in LENS.size)
-        grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 1, 2)
-        rays = cv2.undistortPoints(grid, LENS.matrix, LENS.distortion)
-        plane = np.linalg.inv(pose[:3, [0, 1, 3]])
-        places = cv2.perspectiveTransform(rays, plane).reshape(len(y), len(x), 2)
-        lookup = SCALE * (places + np.array(self.size) / 2 + MARGIN) - 0.5
-        fine = cv2.remap(
-            self.ink, lookup.astype(np.float32), None, cv2.INTER_LINEAR, borderValue=90
-        )
-        picture = cv2.GaussianBlur(
-            cv2.resize(fine, LENS.size, interpolation=cv2.INTER_AREA), (0, 0), blur
-        )
-        noise = 2 * np.random.default_rng(0).standard_normal(picture.shape)
-        return np.clip(picture + noise, 0, 255).astype(np.uint8)
+        corner = pose @ frame([0, 0, 0], [*-np.array(self.size) / 2, 0])
+        return photograph(self.ink, SCALE, LENS, corner, np.random.default_rng(0))
 
 
 def bits(name: str, number: int, border: int) -> np.ndarray:
@@ -180,12 +168,9 @@ def test_a_part_of_a_plain_pattern_is_refused(name):
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
+        ("target_type: aprilgrid\ntagCols: 6\ntagRows: 5\ntagSize: 0.028\ntagSpacing: 0.3\n", GRID),
         (
-            "target_type: 'aprilgrid'\ntagCols: 6\ntagRows: 5\ntagSize: 0.028\ntagSpacing: 0.3\n",
-            GRID,
-        ),
-        (
-            "target_type: checkerboard\ntargetCols: 8\ntargetRows: 5\n"
+            "target_type: 'checkerboard'\ntargetCols: 8\ntargetRows: 5\n"
             "rowSpacingMeters: 0.025\ncolSpacingMeters: 0.025\n",
             CHESS,
         ),
@@ -205,7 +190,7 @@ def test_targets_of_kalibr_are_read(text, expected, tmp_path):
         read_board(tmp_path / "target.yaml")
 
 
-@pytest.mark.parametrize("board", [board for board, _ in SHEETS.values()])
+@pytest.mark.parametrize("board", [*BOARDS.values(), *(board for board, _ in SHEETS.values())])
 def test_each_board_is_read_as_it_is_described(board, tmp_path):
     (tmp_path / "board.toml").write_text(board.described())
     read = read_board(tmp_path / "board.toml")

@@ -10,10 +10,9 @@ from shutil import copytree
 import numpy as np
 import pytest
 
-from recalib import RecalibError
+from recalib import RecalibError, calibrate_pictures
 from recalib.identification.model import displacements
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.summary import summary, verdict
 from recalib.vision.lenses import Lens, read_lens
@@ -77,10 +76,9 @@ def in_one_fit(tmp_path_factory):
 
     @cache
     def make(setup: str):
-        made, (sessions, *_) = tmp_path_factory.mktemp("cell"), SETUPS[setup]
-        folders = [
-            write_session(made / str(number), *session) for number, session in enumerate(sessions)
-        ]
+        folder, (sessions, *_) = tmp_path_factory.mktemp("cell"), SETUPS[setup]
+        numbered = enumerate(sessions)
+        folders = [write_session(folder / str(number), *session) for number, session in numbered]
         return calibrated(*folders), folders
 
     return make
@@ -111,13 +109,13 @@ def true_place(name: str, sessions) -> np.ndarray:
 
 @pytest.mark.parametrize("setup", SETUPS)
 def test_several_cameras_and_boards_are_found_in_one_fit(setup, in_one_fit):
-    (sessions, names, seen), (result, _) = SETUPS[setup], in_one_fit(setup)
+    (sessions, names, targets), (result, _) = SETUPS[setup], in_one_fit(setup)
     draw = Draw(SEED, False)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.15  # of 4 mm
     assert [place.name for place in result.places] == names
     assert set(result.scales) == {name for name in names if "board" in name}
     assert "Careful" not in verdict(result) and not len(result.doubted)
-    assert result.correction.targets == seen
+    assert result.correction.targets == targets
     for sight in range(len(sessions)):
         assert pixel_error(result, "in blocks", result.validation.chosen, sight) < 0.2
     # what stands on one side, relative to the other things there: no gauge moves that
@@ -132,31 +130,27 @@ def test_several_cameras_and_boards_are_found_in_one_fit(setup, in_one_fit):
 
 
 def test_each_camera_is_written_by_its_name(in_one_fit, tmp_path, capsys):
-    folders, made = in_one_fit("two fixed")[1], tmp_path / "calibration"
-    arguments = ["panda.urdf", *map(str, folders), "--tool=panda_link8", f"--out={made}"]
+    folders, out = in_one_fit("two fixed")[1], tmp_path / "calibration"
+    arguments = ["panda.urdf", *map(str, folders), "--tool=panda_link8", f"--out={out}"]
     with few_folds():
         assert main(["calibrate", *arguments]) == DONE
-    told = capsys.readouterr().out
-    assert f"rows {PICTURES + 1} to {2 * PICTURES}: the board by camera right" in told
-    assert "corner error in held-out pictures of the board by camera left" in told
-    assert "lens_left.yaml, lens_right.yaml" in told and not (made / "lens.yaml").exists()
+    text = capsys.readouterr().out
+    assert f"rows {PICTURES + 1} to {2 * PICTURES}: the board by camera right" in text
+    assert "corner error in held-out pictures of the board by camera left" in text
+    assert "lens_left.yaml, lens_right.yaml" in text and not (out / "lens.yaml").exists()
     for name, lens in (("left", LENS), ("right", LONGER)):
-        its = read_lens(made / f"lens_{name}.yaml")
-        assert np.allclose(its.matrix, lens.matrix, atol=3)
-        assert np.allclose(its.distortion[:2], lens.distortion[:2], atol=0.03)
-    said = tomllib.loads((made / "hand_eye.toml").read_text())
-    assert said["camera_right"]["ros"].endswith("--child-frame-id camera_right")
-    assert {"camera_left", "camera_right", "board", "held_out"} < set(said)
-    parameters = json.loads((made / "parameters.json").read_text())
-    names = [its["name"] for its in parameters["parameters"]]
+        found = read_lens(out / f"lens_{name}.yaml")
+        assert np.allclose(found.matrix, lens.matrix, atol=3)
+        assert np.allclose(found.distortion[:2], lens.distortion[:2], atol=0.03)
+    hand_eye = tomllib.loads((out / "hand_eye.toml").read_text())
+    assert hand_eye["camera_right"]["ros"].endswith("--child-frame-id camera_right")
+    assert {"camera_left", "camera_right", "board", "held_out"} < set(hand_eye)
+    parameters = json.loads((out / "parameters.json").read_text())
+    names = [parameter["name"] for parameter in parameters["parameters"]]
     assert len(set(names)) == len(names) and "focal length along x, 2" in names
     assert [*parameters["base_in_instrument"]] == ["camera left", "camera right"]
-    with (made / "frames.csv").open() as stream:
+    with (out / "frames.csv").open() as stream:
         assert [row["frame"] for row in csv.DictReader(stream)] == [*SETUPS["two fixed"][1]]
-
-
-def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
-    """Whichever camera saw it."""
     result, _ = in_one_fit("two fixed")
     rows, frames = result.data.observations[result.counted], result.calibration.frames
     nominal = (result.arm.forward(rows.joints) @ frames.targets[0])[:, :3, 3]
@@ -171,7 +165,7 @@ def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
 def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
     """Also if one folder has another lens in its file: it is found anew by all pictures."""
     result, folders = in_one_fit("two boards")
-    copies = [Path(copytree(one, tmp_path / str(one).replace("/", "_"))) for one in folders]
+    copies = [Path(copytree(folder, tmp_path / folder.parent.name)) for folder in folders]
     lens, matrices = read_lens(folders[0] / "lens.yaml"), []
     start = Lens(lens.size, lens.matrix + np.diag([30.0, 30.0, 0.0]), lens.distortion)  # px
     (copies[0] / "lens.yaml").write_text(start.as_ros())
@@ -187,22 +181,16 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("cell", "slip", "size", "turn", "said"),
+    ("cell", "slip", "size", "turn", "message"),
     [
-        (
-            Cell(SEED, True),
-            ("eye", SHIFT),
-            1.0,
-            0.0,
-            "the camera seems to have slipped on the tool",
-        ),
+        (Cell(SEED, True), ("eye", SHIFT), 1.0, 0.0, "the camera seems to have slipped on the too"),
         (Cell(SEED), ("sheet", TURN), None, 0.2, "the board seems to have slipped on the tool"),
         (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "camera or base seem to have moved"),
         (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "board or base seem to have moved"),
     ],
 )
 def test_what_slips_in_a_session_is_named_in_the_first_lines(
-    cell, slip, size, turn, said, tmp_path
+    cell, slip, size, turn, message, tmp_path
 ):
     result = calibrated(write_session(tmp_path, cell, slip=slip, pictures=2 * PICTURES))
     fault, *others = result.faults
@@ -210,7 +198,7 @@ def test_what_slips_in_a_session_is_named_in_the_first_lines(
     assert size is None or 1e3 * fault.size == pytest.approx(size, rel=0.25)
     assert np.degrees(fault.turn) == pytest.approx(turn, abs=0.05)
     first = summary(result).splitlines()[1]
-    assert f"Careful: between rows {PICTURES} and {PICTURES + 1} {said}" in first
+    assert f"Careful: between rows {PICTURES} and {PICTURES + 1} {message}" in first
 
 
 @pytest.mark.parametrize("both", [False, True], ids=["pictures of one", "pictures of both"])
@@ -228,16 +216,16 @@ def test_of_several_cameras_the_one_that_saw_the_slip_is_named(both, tmp_path):
 def test_a_camera_on_the_hand_that_slips_beside_a_fixed_one_is_named(tmp_path):
     left = write_session(tmp_path / "left", Cell(SEED), "left", "tool")
     hand = write_session(tmp_path / "hand", on_the_hand(), "hand", "table", ("eye", TURN))
-    told = verdict(calibrated(left, hand))
-    assert f"Careful: in {hand}, between rows 15 and 16 camera hand seems to have slipped" in told
+    text = verdict(calibrated(left, hand))
+    assert f"Careful: in {hand}, between rows 15 and 16 camera hand seems to have slipped" in text
 
 
 def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
     moved = changed(1, sheet=Cell(SEED).sheet @ frame([0, 0, 0], [0.003, 0, 0]))
     folders = beside_left(tmp_path, moved)
-    told = verdict(calibrated(*folders))
-    assert f"in {folders[1]}, before row 1 the board seems to have slipped on the tool by 3" in told
-    assert "try each folder by itself" in told
+    text = verdict(calibrated(*folders))
+    assert f"in {folders[1]}, before row 1 the board seems to have slipped on the tool by 3" in text
+    assert "try each folder by itself" in text
 
 
 FAR = frame([0, 0, 1.5], [0.05, 0, 0]) @ Cell(SEED).sheet
@@ -245,24 +233,21 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
 
 
 @pytest.mark.parametrize(
-    ("session", "said"),
+    ("session", "message"),
     [
         ((beside(SEED), "left"), "it has camera 'left' and board 'board', as .* try: observe wi"),
         ((on_the_hand(), "left", "other"), "it has camera 'left' on the hand, .* next to the arm"),
         ((on_the_hand(), "right"), "its board 'board' differs from that in "),
         ((changed(1, board=SMALL), "right"), "its board 'board' differs from that in "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
-        (
-            (changed(1, sheet=FAR), "right"),
-            "the board by camera right is 825 mm from its place by the o",
-        ),
+        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from its place by"),
         ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
     ],
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],
 )
-def test_what_cannot_be_one_cell_is_refused_by_camera_and_board(session, said, tmp_path):
+def test_what_cannot_be_one_cell_is_refused_by_camera_and_board(session, message, tmp_path):
     left = write_session(tmp_path / "left", Cell(SEED), "left")
-    with pytest.raises(RecalibError, match=said):
+    with pytest.raises(RecalibError, match=message):
         calibrated(left, write_session(tmp_path / "right", *session))
 
 

@@ -36,8 +36,10 @@ class Killed(NamedTuple):
 def rules() -> list:
     """The rules of the shipped study, as Snakemake reads them."""
     with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
-        its = api.workflow(ResourceSettings(cores=1), snakefile=ROOT / "Snakefile", workdir=ROOT)
-        return list(its._workflow.rules)
+        workflow = api.workflow(
+            ResourceSettings(cores=1), snakefile=ROOT / "Snakefile", workdir=ROOT
+        )
+        return list(workflow._workflow.rules)
 
 
 @pytest.fixture
@@ -72,5 +74,5 @@ def killed(tmp_path_factory, controller) -> Killed:
 @pytest.fixture(scope="session")
 def continued(killed) -> Project:
     """The same copy of the project, its run started again, and ended."""
-    killed.project.run().well()
+    killed.project.run().expect_success()
     return killed.project

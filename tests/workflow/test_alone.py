@@ -1,13 +1,18 @@
+"""One run at a time in a folder, and what ends one."""
+
 import multiprocessing
 import os
 import shutil
 import signal
+import subprocess
+import sys
 
 import pytest
 
 from recalib import RecalibError
 from recalib.files import whole
 from replication.running import MARK, NOTES, check_known, check_writable, hold
+from tests.conftest import ROOT
 
 
 def killed_while_writing(path):
@@ -37,9 +42,8 @@ def results(tmp_path):
     """A folder of results with what killed processes left there, and in another study's."""
     folder = tmp_path / "results"
     for path in (folder / "runs/a.parquet", folder / "studies/b/runs/a.parquet"):
-        process = multiprocessing.get_context("spawn").Process(
-            target=killed_while_writing, args=(path,)
-        )
+        spawned = multiprocessing.get_context("spawn").Process
+        process = spawned(target=killed_while_writing, args=(path,))
         process.start()
         process.join()
     (folder / "runs/b.parquet").write_text("whole")
@@ -49,9 +53,9 @@ def results(tmp_path):
 def test_what_a_killed_run_left_is_swept_up_and_nothing_else(results):
     assert len(list(results.rglob(".*"))) == 2
     hold([str(results)])
-    left = {str(path.relative_to(results)) for path in results.rglob("*") if path.is_file()}
+    remaining = {str(path.relative_to(results)) for path in results.rglob("*") if path.is_file()}
     (elsewhere,) = (results / "studies/b/runs").iterdir()
-    assert left == {"runs/b.parquet", MARK, str(elsewhere.relative_to(results))}
+    assert remaining == {"runs/b.parquet", MARK, str(elsewhere.relative_to(results))}
 
 
 def test_a_folder_is_held_until_the_process_ends(tmp_path):
@@ -67,7 +71,9 @@ def test_a_folder_is_held_until_the_process_ends(tmp_path):
         assert answers.get(timeout=10) == expected
 
 
-def test_results_whose_notes_are_gone_are_refused_until_somebody_decides(tmp_path, notes):
+def test_results_without_notes_and_folders_that_are_read_only_are_refused(
+    tmp_path, notes, monkeypatch
+):
     check_known(["results"])
     hold(["results"])
     check_known(["results"])
@@ -80,12 +86,25 @@ def test_results_whose_notes_are_gone_are_refused_until_somebody_decides(tmp_pat
         check_known(["other", "results"])
     (tmp_path / "results" / MARK).unlink()
     check_known(["other", "results"])
-
-
-def test_a_folder_that_is_read_only_is_told(tmp_path, monkeypatch):
     new = str(tmp_path / "new")
     check_writable(new)
     check_writable(str(tmp_path))
     monkeypatch.setattr(os, "access", lambda path, mode: False)  # root may write everywhere
     with pytest.raises(RecalibError, match=f"^nothing can be written in {tmp_path};"):
         check_writable(new)
+
+
+WORKING = "print('at work', flush=True); import time; time.sleep(600)"
+
+
+def test_a_job_ends_at_once_and_without_a_word():
+    process = subprocess.Popen(
+        [sys.executable, "-c", WORKING],
+        env=os.environ | {"PYTHONPATH": str(ROOT / "workflow" / "start")},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    assert process.communicate()[1] == b""
+    assert process.returncode == -signal.SIGINT

@@ -2,13 +2,14 @@
 
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from replication.running import readable, study_of
 from replication.training import Place, places
-from tests.conftest import ROOT
+from tests.conftest import ROOT, copy_project
 from tests.project import Project
 
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
@@ -34,27 +35,24 @@ def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
     assert (mine.name, mine.robot, mine.scenario) == ("my_arm", "ur5", "fall")
     assert mine.expected is None, "bands belong to the study that has them"
     assert [*places(mine)] == [Place("ur5", "fall")]
-
-
-def test_the_page_names_every_study_to_begin_with():
     row = next(line for line in PAGE.splitlines() if line.startswith("| `like` |"))
     studies = {path.stem for path in (ROOT / "workflow" / "studies").glob("*.yaml")}
     assert len(studies) > 4 and studies <= {*re.findall(r"\w+", row)}
 
 
 @pytest.mark.parametrize(
-    ("command", "said"),
+    ("command", "planned"),
     [
         ("study STUDY=my_arm", "snakemake --cores 2 --configfile my_arm.yaml --quiet"),
         ("view STUDY=my_arm", "127.0.0.1 --new results/studies/my_arm/recordings/fall.rrd"),
-        ("web STUDY=my_arm", "watch results/studies/my_arm --port 9090"),
+        ("web STUDY=my_arm", "--directory results/studies/my_arm/web 9090"),
     ],
 )
-def test_a_command_speaks_of_its_study(project, command, said):
+def test_a_command_speaks_of_its_study(project, command, planned):
     recording = project / "results/studies/my_arm/recordings/fall.rrd"
     recording.parent.mkdir(parents=True)
     recording.touch()
-    assert said in make(project, *command.split()).stdout
+    assert planned in make(project, *command.split()).stdout
 
 
 def test_a_study_without_a_file_is_refused(project):
@@ -63,18 +61,18 @@ def test_a_study_without_a_file_is_refused(project):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("# nothing yet\n", "1:1: no configuration; expected: keys with their values"),
         ("robot: [ur5\n", "2:1: no YAML: expected ',' or ']', but got '<stream end>'"),
     ],
 )
-def test_a_file_that_snakemake_cannot_read_is_named(text, said, project, monkeypatch):
+def test_a_file_that_snakemake_cannot_read_is_named(text, message, project, monkeypatch):
     monkeypatch.chdir(project)
     Path("my_leg.yaml").write_text(text, encoding="utf-8")
-    said_by_make = make(project, "study", "STUDY=my_leg").stdout
-    assert "-m replication.running.readable my_leg.yaml\n" in said_by_make
-    with pytest.raises(SystemExit, match=rf"^my_leg\.yaml:{re.escape(said)}"):
+    commands = make(project, "study", "STUDY=my_leg").stdout
+    assert "-m replication.running.readable my_leg.yaml\n" in commands
+    with pytest.raises(SystemExit, match=rf"^my_leg\.yaml:{re.escape(message)}"):
         readable.main("my_leg.yaml")
     readable.main("my_arm.yaml")
 
@@ -82,6 +80,19 @@ def test_a_file_that_snakemake_cannot_read_is_named(text, said, project, monkeyp
 @pytest.mark.slow
 def test_a_study_is_refused_with_its_mistakes_alone(tmp_path):
     (tmp_path / "my_leg.yaml").write_text("like: quick\nrobot: kuka\n", encoding="utf-8")
-    ran = Project(tmp_path, "--configfile", "my_leg.yaml").run("--dry-run")
-    *_, last = ran.badly().said.splitlines()
+    outcome = Project(tmp_path, "--configfile", "my_leg.yaml").run("--dry-run")
+    *_, last = outcome.expect_failure().output.splitlines()
     assert last.startswith("my_leg.yaml:2:1: robot is 'kuka'; expected: ur10")
+
+
+@pytest.mark.slow
+def test_the_rules_are_planned_from_another_workflow(tmp_path):
+    page = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
+    (snakefile,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "Snakefile").write_text(snakefile)
+    (tmp_path / "recalib").mkdir()
+    copy_project(tmp_path / "recalib")
+    command = [sys.executable, "-m", "snakemake", "--dry-run", "--quiet", "host"]
+    planned = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert planned.returncode == 0, planned.stderr
+    assert "recalibration_findings" in planned.stdout + planned.stderr

@@ -36,9 +36,8 @@ def test_github_runs_what_the_check_of_a_change_runs():
 def test_every_python_that_is_promised_runs_the_tests():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     python = "Programming Language :: Python :: "
-    promised = [
-        its.removeprefix(python) for its in project["classifiers"] if its.startswith(python)
-    ]
+    names = (classifier for classifier in project["classifiers"] if classifier.startswith(python))
+    promised = [classifier.removeprefix(python) for classifier in names]
     on_linux = [row for row in checked() if row["run"] == "make test" and "os" not in row]
     assert [row.get("python", "3.11") for row in on_linux] == promised
     assert project["requires-python"] == f">={promised[0]}"
@@ -76,9 +75,9 @@ def test_every_extra_is_locked_with_hashes():
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     locks = [path.read_text(encoding="utf-8") for path in ROOT.glob("requirements*.lock")]
     names = {
-        re.match(r"[\w.-]+", its)[0].replace(".", "-")
+        re.match(r"[\w.-]+", requirement)[0].replace(".", "-")
         for part in extras["optional-dependencies"].values()
-        for its in part
+        for requirement in part
     }
     for name in names:
         pinned = rf"^{name}==\S+.* \\\n    --hash=sha256"

@@ -13,13 +13,9 @@ from recalib.laboratory.options import parse
 from tests.conftest import ROOT, copy_project
 
 TEMPLATES = ROOT / "workflow" / "templates"
-PAGES = [  # as they are written: those with results as templates
-    template if (template := TEMPLATES / f"{page.name}.j2").exists() else page
-    for page in (
-        ROOT / "README.md",
-        ROOT / "CONTRIBUTING.md",
-        *sorted((ROOT / "docs").glob("*.md")),
-    )
+WRITTEN = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [  # those with results as templates
+    template if (template := TEMPLATES / f"{page.name}.j2").exists() else page for page in WRITTEN
 ]
 BLOCK = re.compile(r"^ *```(\w*)\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
 CONTINUED = re.compile(r"\\\n *")  # on the next line
@@ -92,16 +88,16 @@ def test_a_command_can_be_given(command, request):
 def test_make_help_names_every_target_and_pages_name_no_other():
     text = (ROOT / "Makefile").read_text(encoding="utf-8")
     targets = set(re.search(r"^\.PHONY: (.*)", text, re.MULTILINE)[1].split())
-    told = subprocess.run(  # make, run by make, would name the folder that it enters
+    printed = subprocess.run(  # make, run by make, would name the folder that it enters
         ["make", "--no-print-directory", "help"],
         cwd=ROOT,
         text=True,
         capture_output=True,
         check=True,
     )
-    helped = {line.split()[0] for line in told.stdout.splitlines() if len(line.split()) > 2}
+    helped = {line.split()[0] for line in printed.stdout.splitlines() if len(line.split()) > 2}
     assert helped == targets
-    timed = {line.split()[0] for line in told.stdout.splitlines() if TIME.search(line)}
+    timed = {line.split()[0] for line in printed.stdout.splitlines() if TIME.search(line)}
     assert timed >= LONG, "whoever waits knows for how long"
     named = {
         target

@@ -1,15 +1,17 @@
-"""The whole workflow on a small study, in a copy of the project."""
+"""The whole workflow: on a small study, in a copy of the project, and on other arms."""
 
 import re
 import subprocess
 
 import pandas as pd
 import pytest
+import yaml
 
 from recalib import load
 from replication.scenarios import Resolved
 from tests.conftest import ROOT
 from tests.project import Project
+from tests.replication.config.test_own_robots import ARMS, entry_of
 from tests.workflow.conftest import CORES
 
 pytestmark = pytest.mark.slow
@@ -18,7 +20,7 @@ shared = pytest.mark.xdist_group(name="workflow")  # one after the other: they s
 
 def planned(project, *arguments) -> set[str]:
     """The rules that would run."""
-    lines = project.run("-n", *arguments).well().said.splitlines()
+    lines = project.run("-n", *arguments).expect_success().output.splitlines()
     start = lines.index("Job stats:") if "Job stats:" in lines else len(lines)
     rows = [line.split() for line in lines[start + 3 :]]
     return {row[0] for row in rows[: rows.index([])] if row[0] != "total"} if [] in rows else set()
@@ -72,7 +74,7 @@ def test_what_is_edited_reruns_what_depends_on_it_and_only_that(continued):
     edited = planned(continued)
     module.write_text(text, encoding="utf-8")
     assert {"all", "figures"} <= edited
-    assert not {its for its in edited if its.startswith("train")} | {"scenarios"} & edited
+    assert not {rule for rule in edited if rule.startswith("train")} | {"scenarios"} & edited
     assert planned(continued) == set(), "nothing was left to do before"
     assert "scenarios" in planned(continued, "--config", "seed=2")
 
@@ -82,7 +84,7 @@ def test_the_same_configuration_gives_the_same_bytes(continued):
     run = "runs/ur10/links_encoders/improved"
     files = [f"{run}.parquet", f"{run}.npz", "settings/improved.csv"]
     wanted = (f"results/studies/again/{file}" for file in files)
-    continued.run("--config", "name=again", "--", *wanted).well()
+    continued.run("--config", "name=again", "--", *wanted).expect_success()
     for file in files[:2]:  # a row of settings says how many seconds it took
         again = continued.results.with_name("again") / file
         assert again.read_bytes() == (continued.results / file).read_bytes()
@@ -96,9 +98,11 @@ def test_a_final_error_outside_of_its_band_ends_the_run_with_its_name(continued)
     bands.assign(low=bands["low"] + 10, high=bands["high"] + 10).to_csv(wrong, index=False)
     check = "--", "results/studies/tiny/check.txt"
     broken = continued.run("--config", f"expected={wrong}", *check)
-    said = broken.badly().said
-    assert re.search(r"improved, \d+ iterations, on the ur10, links_encoders: position_error", said)
-    continued.run(*check).well()
+    output = broken.expect_failure().output
+    assert re.search(
+        r"improved, \d+ iterations, on the ur10, links_encoders: position_error", output
+    )
+    continued.run(*check).expect_success()
 
 
 def test_another_value_under_the_shipped_name_is_refused_and_changes_nothing(tmp_path):
@@ -110,6 +114,33 @@ def test_another_value_under_the_shipped_name_is_refused_and_changes_nothing(tmp
     text = config.read_text(encoding="utf-8")
     config.write_text(text.replace("\nrobot: ur10", "\nrobot: ur3"), encoding="utf-8")
     refused = project.run("--", "figures/figure1.svg")
-    refused.told("not the shipped study: it differs in robot")
+    refused.expect_refusal("not the shipped study: it differs in robot")
     config.write_text(text, encoding="utf-8")
     assert subprocess.check_output([*git, "status", "--porcelain"], cwd=tmp_path) == b""
+
+
+LESS = {
+    "experiments": {"scenarios": ["links_encoders"], "switches": False},
+    "training": {"seeds": 2, "tests": 20},
+    "search": {"searches": 2},
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("urdf", ["kinova.urdf", "xarm7.urdf"])
+def test_another_arm_is_damaged_trained_drawn_and_recorded(urdf, tmp_path):
+    """One of six joints and one of seven, with the paper's damage."""
+    row = next(row for row in ARMS if row["urdf"] == urdf)
+    mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry_of(row)}} | LESS
+    project = Project(tmp_path, *CORES, "--configfile", "mine.yaml", name="mine")
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(mine), encoding="utf-8")
+    project.run().expect_success()
+    results = project.results
+    table = pd.read_csv(results / "summary.csv").set_index("learner")
+    assert {*table.index} == {"improved", "ritter"} and {*table["robot"]} == {"mine"}
+    improved = table.loc["improved"]
+    for error in ("position_error_cm", "orientation_error_deg"):
+        assert improved[f"final_{error}"] < 0.2 * improved[f"initial_{error}"]
+    assert (results / "recordings" / "links_encoders.rrd").stat().st_size > 1e5
+    for made in ("claims.json", "figures/figure1.svg"):
+        assert (results / made).exists()

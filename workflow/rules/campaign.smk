@@ -22,8 +22,8 @@ def measured(wildcards):
 
 def pieces(wildcards, names):
     """The files of variants in a replicate of a setup."""
-    its = {"setup": wildcards.setup, "replicate": wildcards.replicate}
-    return [PIECE.format(variant=name, **its) for name in names]
+    replicate = {"setup": wildcards.setup, "replicate": wildcards.replicate}
+    return [PIECE.format(variant=name, **replicate) for name in names]
 
 
 rule design:
@@ -98,6 +98,6 @@ rule outcomes:
 
 rule campaign:
     input:
-        [MEASURED.format(setup=its, replicate=number) for its, number in planned(STUDY)],
+        [MEASURED.format(setup=setup, replicate=number) for setup, number in planned(STUDY)],
     message:
         "What was missing of the campaign: {input}; `make campaign` ships it"

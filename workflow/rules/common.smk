@@ -30,7 +30,7 @@ try:
     check_writable(".snakemake")
     check_known([RESULTS])
 except RecalibError as error:
-    sys.exit(str(error))  # an exception would be told with this file and line, where no mistake is
+    sys.exit(str(error))  # an exception would be reported with this file and line, which are right
 
 IS_SHIPPED = STUDY.name == SHIPPED
 DUMPED = STUDY.model_dump_json()

@@ -20,7 +20,7 @@ rule scenarios:
     input:
         [
             str(find_urdf(STUDY.robots[robot].urdf))
-            for robot in dict.fromkeys(its.robot for its in PLACES)
+            for robot in dict.fromkeys(place.robot for place in PLACES)
         ],
     output:
         resolved=[place.scenario_file(RESULTS) for place in PLACES],
@@ -103,7 +103,7 @@ rule ensemble:
 
 rule mapping:
     input:
-        scenarios=[its.scenario_file(RESULTS) for its in PLACES if its.robot == STUDY.robot],
+        scenarios=[place.scenario_file(RESULTS) for place in PLACES if place.robot == STUDY.robot],
         own=OWN.scenario_file(RESULTS),
     output:
         coupling=f"{RESULTS}/mapping/coupling.parquet",

@@ -25,19 +25,20 @@ from replication.running.outputs import write
 
 
 def main(job: Snakemake) -> None:
-    """Do the job of a rule. A mistake of the user's or of the system is told in one line."""
+    """Do the job of a rule. A mistake of the user's or of the system is reported in one line."""
     function: Callable[..., Any] = resolve_name(job.params.function)
-    asked = inspect.signature(function).parameters
+    parameters = inspect.signature(function).parameters
     files = {**dict(job.input.items()), **dict(job.output.items())}
-    given = {name: path for name, path in files.items() if name in asked}
-    given |= {name: value for name, value in job.params.items() if name in asked}
-    if "study" in asked:
-        given["study"] = Study.model_validate_json(job.params.study)
+    arguments = {name: path for name, path in files.items() if name in parameters}
+    arguments |= {name: value for name, value in job.params.items() if name in parameters}
+    if "study" in parameters:
+        arguments["study"] = Study.model_validate_json(job.params.study)
     outputs = dict(job.output.items()) or {"": job.output[0]}
-    paths = [path for name, path in outputs.items() if name not in asked]
+    paths = [path for name, path in outputs.items() if name not in parameters]
     start = time.perf_counter()
     try:
-        returned = validate_call(config=ConfigDict(arbitrary_types_allowed=True))(function)(**given)
+        call = validate_call(config=ConfigDict(arbitrary_types_allowed=True))(function)
+        returned = call(**arguments)
         values = [returned] if len(paths) == 1 else returned or ()
         for path, value in zip(paths, values, strict=True):
             write(Path(path), value, job.params.get("digits"))

@@ -1,1 +1,1 @@
-"""Which answers can be trusted: faults in the rows, and what no measurement told."""
+"""Which answers can be trusted: faults in the rows, and what is not identifiable."""

@@ -7,10 +7,10 @@ import numpy as np
 from recalib.errors import RecalibError
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.gains import WrongGain, wrong_gain
-from recalib.identification.checks.link_lengths import link_lengths
 from recalib.identification.checks.postures import Postures
 from recalib.identification.checks.sequence import Fault, faults
 from recalib.identification.model.observations import Observations
+from recalib.nominal.kinematics import Arm
 
 FEWEST = 10  # postures to hold some out
 NOISIEST = 5e-3, np.radians(2)  # m, rad along an axis: so bad is no instrument, and no arm
@@ -18,6 +18,8 @@ NAMED = 5  # rows to look at first
 # Of a link, of all links together, and, where axes meet, m: a change beyond all is no wear. The
 # damage of the paper takes a tenth of a link, and a fortieth of them together.
 OTHER_LINK, OTHER_ARM, OTHER_CROSSING = 0.2, 0.05, 0.02
+# Axes as near to parallel count as parallel: far away along them, any length would be explained.
+PARALLEL = 0.02
 
 
 class Untrustworthy(RecalibError):
@@ -67,7 +69,7 @@ def check_estimate(geometry: Calibration, observations: Observations) -> None:
 
 
 def check_links(geometry: Calibration) -> None:
-    """Raise Untrustworthy unless links are about as long as those of the nominal arm.
+    """Raise Untrustworthy unless links are about as long as the nominal arm's.
 
     Wrong units and wrong names of sockets may be explained by another arm, without any noise.
     """
@@ -84,3 +86,28 @@ def check_links(geometry: Calibration) -> None:
             f" expected: about {1e3 * right[worst]:.0f} mm, as in the URDF; try: other units or"
             f" another URDF{names}"
         )
+
+
+def link_lengths(nominal: Arm, identified: Arm) -> tuple[np.ndarray, np.ndarray]:
+    """Lengths (joints - 1,) [m] of the links from each joint's origin to the next, of both arms.
+
+    An origin may lie anywhere on its joint's axis, and if the joint slides, anywhere at all: no
+    measurement determines where. So the origins of the identified arm are moved, as far as they may
+    be, to where its links are most like the nominal ones. What still differs does so wherever
+    origins lie.
+    """
+    placements = [list(arm.model.jointPlacements)[2:] for arm in (nominal, identified)]
+    right, found = (
+        np.array([placement.translation for placement in arm]).reshape(-1, 3) for arm in placements
+    )
+    free = [  # directions in which each origin may be moved, in the frame of its joint
+        np.eye(3) if slides else np.outer(axis, axis)
+        for slides, axis in zip(nominal.slides, nominal.axes, strict=True)
+    ]
+    columns = np.zeros((*found.shape, len(free), 3))
+    for link, placement in enumerate(placements[1]):
+        columns[link, :, link] = -free[link]
+        columns[link, :, link + 1] = placement.rotation @ free[link + 1]
+    slopes = columns.reshape(found.size, 3 * len(free))
+    moves = slopes @ np.linalg.lstsq(slopes, (right - found).ravel(), rcond=PARALLEL)[0]
+    return np.linalg.norm(right, axis=1), np.linalg.norm(found + moves.reshape(-1, 3), axis=1)

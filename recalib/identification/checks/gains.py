@@ -16,7 +16,7 @@ FIRST_WAVE = [*JOINT_ERRORS].index("sine 1")
 
 @dataclass(frozen=True)
 class WrongGain:
-    """A joint turns, beyond what its column says, by a share of what another's says.
+    """A joint turns by its column and, in addition, by a share of another joint's column.
 
     Attributes:
         joint, by: their numbers; the same where it moves by another gain.
@@ -29,7 +29,9 @@ class WrongGain:
 
 
 def wrong_gain(geometry: Calibration, observations: Observations) -> WrongGain | None:
-    """The one that explains the most of what no arm explains; None if chance or gears may do so.
+    """The gain that explains the most of the residuals that no arm explains.
+
+    None if chance or gears may explain them.
 
     All by one joint are compared without its waves, which look alike where it turned little.
     """

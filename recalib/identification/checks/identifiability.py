@@ -2,7 +2,7 @@
 
 Parameters are added one by one to the identifiable ones: frames, then joint offsets, then links,
 and last those of which others leave next to nothing. One is not identifiable if the data's
-information on it, with all before it free, is less than that of its prior. The parameters that can
+information on it, with all before it free, is less than its prior's. The parameters that can
 compensate for it are its partners.
 """
 
@@ -13,17 +13,16 @@ import numpy as np
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.frames import HELD
 from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Observations
-from recalib.identification.unseen import Unseen, anywhere
+from recalib.identification.unseen import Unseen, anywhere, geometry_of
 from recalib.nominal.newton import solve_groups
 
-TOLD = 1.0  # information over that of the prior from which on a parameter is told apart
-POSTURES = 200  # all over the joints' ranges, to see what any measurements of the kind would tell
+IDENTIFIABLE = 1.0  # the least information on an identifiable parameter, over its prior's
+POSTURES = 200  # all over the joints' ranges: they stand for all measurements of this kind
 SEATED, STEPS = 1e-9, 50  # m: how well a ball sits in its socket, and Newton's steps to there
-# Of a parameter's own information: what others leave of it where links are bent by two degrees, and
-# where they are not bent at all.
+# Of a parameter's own information: the part that others leave if links are bent by two degrees, and
+# if they are not bent at all.
 WEAK, ROUNDING = 1e-3, 1e-8
 PARTNERS, SHARE = 3, 0.3  # so many at most, whose effect is that part of the largest at least
 DIGITS = 6  # of an effect over the largest: where several targets tie, rounding does not decide
@@ -35,9 +34,9 @@ class Unidentifiable:
 
     Attributes:
         parameter: its number.
-        partners: the numbers of those that can make up for it, the strongest first; none where the
-            data say nothing of it at all.
-        lasting: whether no measurements of this kind could tell them apart.
+        partners: the numbers of the parameters that can compensate for it, the strongest first;
+            none if the data have no information on it at all.
+        lasting: whether no measurements of this kind would make it identifiable.
     """
 
     parameter: int
@@ -58,14 +57,15 @@ def unidentifiable_parameters(
         others = _seated(calibration, others.joints, pairs)
     more = _root(calibration, others, np.ones(len(others)))
     # What goes along an axis is the same before and behind it. By a bent link alone the first of
-    # two such parameters looks told, and then the second by nothing: so the first comes last.
-    its = root[:, order]
-    order = _last(order, [one for one, _ in _dependent(its, WEAK * np.sum(its**2, axis=0))])
-    found = dict(_dependent(root[:, order], np.full(len(order), TOLD)))
-    # Whatever could make up for what is open is free where other measurements are asked for it.
+    # two such parameters seems identifiable, and then the second does not: the first comes last.
+    ordered = root[:, order]
+    weak = _dependent(ordered, WEAK * np.sum(ordered**2, axis=0))
+    order = _last(order, [number for number, _ in weak])
+    found = dict(_dependent(root[:, order], np.full(len(order), IDENTIFIABLE)))
+    # For other measurements these come last: all that could compensate for them is free.
     again = _last(np.arange(len(order)), [*found])
     more = more[:, order[again]]
-    least = ROUNDING * np.maximum(np.sum(more**2, axis=0), TOLD)
+    least = ROUNDING * np.maximum(np.sum(more**2, axis=0), IDENTIFIABLE)
     lasting = {int(again[number]) for number, _ in _dependent(more, least)}
     return [
         Unidentifiable(int(order[number]), tuple(order[partners].tolist()), number in lasting)
@@ -80,22 +80,19 @@ def _last(order: np.ndarray, some: list[int]) -> np.ndarray:
 
 def _order(model: ErrorModel) -> np.ndarray:
     """Numbers of the parameters of geometry that are not held: frames, offsets, links."""
-    numbers = np.arange(len(model.deviations))
-    offsets = numbers[model.offset_columns]
-    geometry = numbers[: model.optics_columns.start]
-    order = np.concatenate([geometry[model.free[geometry]], offsets])
-    order = np.concatenate([order, np.setdiff1d(geometry, order)])
-    return order[model.deviations[order] > HELD]
+    numbers = geometry_of(model)
+    offsets = numbers >= model.offset_columns.start
+    return numbers[np.lexsort([~offsets, ~model.free[numbers]])]
 
 
 def _root(calibration: Calibration, observations: Observations, weights: np.ndarray) -> np.ndarray:
     """R (P, P) with R' R the data's information on parameters over their prior deviations.
 
-    R is of the slopes themselves: in their squares, what is next to nothing is lost to rounding.
+    R is of the slopes themselves: in their squares, small numbers are lost to rounding.
     """
     model, estimate = calibration.model, calibration.estimate
-    parameters, terms = estimate.parameters / model.deviations, model.terms(observations.joints)
-    linear = Linearisation(model, parameters, observations, terms)
+    parameters = estimate.parameters / model.deviations
+    linear = Linearisation(model, parameters, observations)
     root = np.empty((0, len(parameters)))
     for jacobians, noise in zip(linear.jacobians, estimate.noise, strict=True):
         rows = jacobians * (np.sqrt(weights) / noise)[:, None, None]
@@ -113,10 +110,9 @@ def _seated(calibration: Calibration, joints: np.ndarray, pairs: np.ndarray) -> 
         poses, jacobians = parametric.predict_and_jacobian(postures[:, 0], targets[rows])
         return poses[:, None], jacobians[:, None]
 
-    its = solve_groups(kinematics, goals[:, None], joints[:, None], SEATED, STEPS)
-    found, errors = its[0][:, 0], its[1][:, 0]
-    reached = errors <= SEATED
-    return Observations(found[reached], None, targets[reached], sockets[reached])
+    found, errors = solve_groups(kinematics, goals[:, None], joints[:, None], SEATED, STEPS)
+    reached = errors[:, 0] <= SEATED
+    return Observations(found[reached, 0], None, targets[reached], sockets[reached])
 
 
 def _dependent(root: np.ndarray, least: np.ndarray) -> Iterator[tuple[int, list[int]]]:

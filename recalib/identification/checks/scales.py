@@ -1,8 +1,8 @@
-"""How large what measures an arm is, by an arm whose links are as long as they are described.
+"""What measurements are worth: how large what measures an arm is, and how well the arm returns.
 
 An arm whose links may have any length explains boards, distances and positions of any scale: all
-grow together. So the links are held here, and only joint offsets, frames, optics and scales are
-found.
+grow together. So links are held as long as they are described where a scale is asked for, and only
+joint offsets, frames, optics and scales are found.
 """
 
 from collections.abc import Sequence
@@ -11,26 +11,51 @@ from typing import NamedTuple
 
 import numpy as np
 
-from recalib.identification.checks.repeatability import COVARIANCE
 from recalib.identification.estimation import identify
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import BOARD, Optics
 from recalib.nominal.kinematics import Arm
 
+# Of displacements [m, rad], for a rad by which joints do not return.
+COVARIANCE = np.diag([LEVER**2] * 3 + [1.0] * 3)
+RETURNS = 3e-5, 1e-4, 3e-4, 1e-3  # rad: from what hardly an arm does better to a worn one
 ANY = 0.5  # standard deviation of a scale that may be anything
 LINKS = 2e-3  # rad, times a lever m: so far links that are held make an arm miss
+
+
+def returning(model: ErrorModel, observations: Observations) -> np.ndarray:
+    """The covariance (6, 6) [m, rad] by which the arm does not return to a posture.
+
+    Corners determine some directions of a pose a hundred times better than others. If the arm
+    itself does not return as well, the surest directions are less sure than they look. So each pose
+    has the covariance of its corners and, in addition, this one, whose size is the most probable of
+    a few.
+
+    Raises BadMeasurement, as `identify`.
+    """
+    tried = []
+    for size in RETURNS:
+        covariance = size**2 * COVARIANCE
+        weighed = observations.with_noise(covariance)
+        assert weighed.optics is not None
+        # a density of residuals before they were whitened
+        volume = np.linalg.slogdet(weighed.optics.whitening).logabsdet.sum()
+        evidence = identify(model, weighed).log_evidence
+        tried.append((evidence + volume, -size, covariance))
+    return max(tried, key=lambda one: one[:2])[2]
 
 
 class Scale(NamedTuple):
     """The scale of something.
 
     Attributes:
-        factor: its size over what it is said to be.
-        remaining: the part of the noise that these sizes leave of that with the sizes that are
-            said, as positions are in the table; 0 of a board, of which nobody asks. If other
-            links than those described are the reason, or none has a length, much of it remains.
+        factor: the estimated size over the stated one.
+        remaining: the noise with the estimated sizes over the noise with the stated ones, or with
+            positions as in the table; 0 for a board, where it is not needed. If other links than
+            those described are the reason, or none has a length, much of the noise remains.
     """
 
     factor: float
@@ -38,9 +63,9 @@ class Scale(NamedTuple):
 
 
 def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Scale]:
-    """Those of each board, of each distance between sockets, or of all measured positions.
+    """The scale of each board, of each distance between sockets, or of all measured positions.
 
-    Simulated arms tell that of a board to 0.3 percent.
+    Simulated arms determine the scale of a board to 0.3 percent.
 
     Args:
         frames: an initial estimate of them, with optics if cameras measured.
@@ -48,9 +73,8 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
     Raises BadMeasurement, as `identify`.
     """
     each, by_cameras = len(BOARD), observations.optics is not None
-    if observations.optics is not None:
-        optics = observations.optics.with_noise(LINKS**2 * COVARIANCE)
-        observations = replace(observations, optics=optics)
+    if by_cameras:
+        observations = observations.with_noise(LINKS**2 * COVARIANCE)
     elif observations.measured is not None:
         observations, each = replace(observations, optics=_rod(observations)), 1
         frames = frames.with_optics(_rod(observations))
@@ -67,13 +91,13 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
         float(np.linalg.norm(centres[one] - centres[other])) / length
         for one, other, length, _ in observations.distances
     ]
-    beside = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
+    errors = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
     unit = 1.0
     if observations.measured is not None and not by_cameras:
         # where no link holds the size, all may shrink to a point, and its noise with it
-        unit = max(abs(1 + beside.item()), HELD)
+        unit = max(abs(1 + errors.item()), HELD)
     remaining = float(found.noise[0] / noise / unit)
-    return [Scale(factor, remaining) for factor in [*factors, *(1 + beside).tolist()]]
+    return [Scale(factor, remaining) for factor in [*factors, *(1 + errors).tolist()]]
 
 
 def _rod(observations: Observations) -> Optics:

@@ -24,12 +24,12 @@ from recalib.identification.model.linearisation import Linearisation, displaceme
 from recalib.identification.model.observations import Observations
 
 LAG, DRIFT, GROWTH, JUMP, SLIP = "lag", "drift", "growth", "jump", "slip"
-CHANCE = 1e-6  # with which what is named would be there by chance, were all residuals noise
-SHARE = 0.15  # of the squares of residuals; those of real arms are more than noise
+CHANCE = 1e-6  # of a reported fault, were all residuals noise
+SHARE = 0.15  # of the squares of residuals; a real arm's residuals are more than noise
 MOST = 3  # faults at once
 ENDS = 5  # rows on either side of a jump
-# Times the noise: of a row that is farther off, the distance counts and not its square; and next to
-# nothing where that shows no fault, as beside gross outliers
+# Times the noise: of a row that is farther off, the distance counts and not its square; if that
+# shows no fault, as among gross outliers, it hardly counts at all
 FAR = 4.0
 SMALL = 1e-3  # of the typical step: for slopes
 
@@ -46,7 +46,7 @@ class Fault:
             at once, or the target against the tool.
         row: from 0 in its series, the first one after a jump or a slip.
         turn: rad, that goes with the size.
-        sight: that of this row.
+        sight: the number of this row's sight.
     """
 
     kind: str
@@ -63,17 +63,20 @@ def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
     fault, all others are looked for without it.
 
     Args:
-        geometry: what was identified from them.
+        geometry: identified from the same rows.
     """
     found = _faults(geometry, observations, 1) or _faults(geometry, observations, 2)
     if len(found) < 2 or found[0].kind != LAG:
         return found
-    punctual = _without(found[0], observations)
+    # at the joint coordinates of the moments at which poses were measured
+    lag, joints, series = found[0], observations.joints.copy(), observations.series
+    rows = series == series[observations.targets == lag.sight][0]
+    joints[rows] -= lag.size * _speeds(joints[rows], _times(observations)[rows])
+    punctual = replace(observations, joints=joints)
     again = identify(geometry.model, punctual, geometry.estimate, geometry.estimate.weights)
     others = _faults(replace(geometry, estimate=again), punctual, 1)
-    its = LAG, found[0].sight
-    others = [fault for fault in others if (fault.kind, fault.sight) != its]
-    return [found[0], *others][:MOST]
+    others = [fault for fault in others if (fault.kind, fault.sight) != (LAG, lag.sight)]
+    return [lag, *others][:MOST]
 
 
 def _faults(geometry: Calibration, observations: Observations, power: int) -> list[Fault]:
@@ -126,22 +129,13 @@ def slopes_of(geometry: Calibration, observations: Observations, power: int) -> 
     model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
     parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
     parameters[: len(estimate.parameters)] = estimate.parameters
-    terms = model.terms(observations.joints)
-    linear = Linearisation(model, parameters / model.deviations, observations, terms)
+    linear = Linearisation(model, parameters / model.deviations, observations)
     residuals = np.concatenate([*linear.residuals], axis=1) / np.repeat(estimate.noise, 3)
     lengths = np.linalg.norm(residuals, axis=1, keepdims=True)
     weights = np.sqrt(FAR / np.maximum(lengths, FAR)) ** power
     residuals, weights = residuals * weights, weights / np.repeat(estimate.noise, 3)
     arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
     return Slopes(residuals, arm, weights, model)
-
-
-def _without(lag: Fault, observations: Observations) -> Observations:
-    """The same at the joint coordinates of the moments at which poses were measured."""
-    joints, series = observations.joints.copy(), observations.series
-    rows = series == series[observations.targets == lag.sight][0]
-    joints[rows] -= lag.size * _speeds(joints[rows], _times(observations)[rows])
-    return replace(observations, joints=joints)
 
 
 class Candidate(NamedTuple):
@@ -151,8 +145,7 @@ class Candidate(NamedTuple):
         kind: of the fault.
         rows: (m,) numbers of the rows that it concerns, in the order of their measurement.
         columns: (m, k, c) slopes of their residuals by the fault's parameters.
-        ends: so many of them at least are on either side of where it begins; it does with the first
-            unless given.
+        ends: the fewest rows on either side of where the fault begins; 0: with the first row.
     """
 
     kind: str
@@ -162,7 +155,7 @@ class Candidate(NamedTuple):
 
 
 def _candidates(geometry: Calibration, observations: Observations) -> Iterator[Candidate]:
-    """All of them, whose columns are those of whitened residuals."""
+    """All candidates, with slopes of whitened residuals."""
     times = _times(observations)
     poses = geometry.predict(observations.joints, observations.targets)
     instruments, targets = geometry.model.frames.sights[observations.targets].T
@@ -171,15 +164,17 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[C
     grown = np.zeros((len(poses), 6, 1))
     grown[:, :3, 0] = poses[:, :3, 3] - geometry.frames.bases[instruments, :3, 3]
     grown = observations.whitened(grown[:, known])
-    slipped = observations.whitened(_slipped(poses)[:, known, known])
+    slipped = np.zeros((len(poses), 6, 6))  # along the target's own axes
+    slipped[:, :3, :3] = slipped[:, 3:, 3:] = poses[:, :3, :3]
+    slipped = observations.whitened(slipped[:, known, known])
     passed = np.zeros(len(observations))
     for number in np.unique(observations.series):
         rows = np.flatnonzero(observations.series == number)
-        its, clock = observations[rows], times[rows]
+        part, clock = observations[rows], times[rows]
         if clock[0] == clock[-1]:  # a camera that took one picture: nothing is late or drifts
             continue
         passed[rows] = (clock - clock[0]) / np.ptp(clock)
-        yield Candidate(LAG, rows, its.whitened(_late(geometry, its, clock))[..., None])
+        yield Candidate(LAG, rows, part.whitened(_late(geometry, part, clock))[..., None])
         yield Candidate(DRIFT, rows, moved[rows] * passed[rows, None, None])
         yield Candidate(GROWTH, rows, grown[rows] * passed[rows, None, None])
     along = passed if observations.times is None else times
@@ -222,11 +217,11 @@ class Unexplained:
 
         Returns also with which of its rows it begins, and its parameters (c,).
         """
-        its, columns, ends = candidate.rows, candidate.columns, candidate.ends
+        _, numbers, columns, ends = candidate
         products = (
             np.einsum("nkc,nkd->ncd", columns, columns),
-            np.einsum("nkc,nkp->ncp", columns, self._arm[its]),
-            np.einsum("nkc,nk->nc", columns, self._residuals[its]),
+            np.einsum("nkc,nkp->ncp", columns, self._arm[numbers]),
+            np.einsum("nkc,nk->nc", columns, self._residuals[numbers]),
         )
         rows = np.arange(ends, len(columns) - ends + 1) if ends else np.zeros(1, int)
         if not len(rows) or self._free <= columns.shape[-1]:
@@ -277,11 +272,4 @@ def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:
         places = poses[rows, :3, 3]
         levers = (places - places.mean(axis=0))[:, None]
         columns[rows, :3, 3:] = np.cross(np.eye(3), levers).swapaxes(1, 2)
-    return columns
-
-
-def _slipped(poses: np.ndarray) -> np.ndarray:
-    """What moves of the target by 1 m and 1 rad, along its own axes, do to poses (n, 6, 6)."""
-    columns = np.zeros((len(poses), 6, 6))
-    columns[:, :3, :3] = columns[:, 3:, 3:] = poses[:, :3, :3]
     return columns

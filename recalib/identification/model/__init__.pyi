@@ -1,5 +1,3 @@
-"""The public names and their modules."""
-
 from .error_model import NO_ERRORS as NO_ERRORS
 from .error_model import ErrorModel as ErrorModel
 from .error_model import held as held

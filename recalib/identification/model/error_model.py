@@ -60,8 +60,8 @@ JOINT_WAVES = reduce(
 class ErrorModel:
     """The kinematics of an arm as a function of its parameters.
 
-    Waves and compliance are those of joints that turn; without the masses of links nothing is known
-    of gravity, and there is no compliance. Such coefficients are held at zero.
+    Only joints that turn have waves and compliance; without the masses of links gravity is unknown,
+    and there is no compliance. Such coefficients are held at zero.
 
     Args:
         arm: the nominal kinematics.
@@ -163,12 +163,12 @@ class ErrorModel:
 
     @property
     def socket_columns(self) -> slice:
-        """Which parameters are those of the sockets' centres."""
+        """Which parameters are the sockets' centres."""
         return slice(self._twists, self._optics)
 
     @property
     def optics_columns(self) -> slice:
-        """Which parameters are those of a camera's optics."""
+        """Which parameters are of the cameras' optics."""
         return slice(self._optics, self._geometry)
 
     @property
@@ -220,8 +220,8 @@ class ErrorModel:
             further = [(twist * pin.SE3(pose)).homogeneous for twist, pose in moved]
             found = replace(found, further=np.array(further))
         if found.targets_unknown:
-            its = slice(self._joints, self._joints + len(found.targets))
-            ends = zip(twists[its], self._placements[its], strict=True)
+            at_targets = slice(self._joints, self._joints + len(found.targets))
+            ends = zip(twists[at_targets], self._placements[at_targets], strict=True)
             targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
             found = replace(found, targets=np.array([pose.homogeneous for pose in targets]))
         return found
@@ -233,14 +233,11 @@ class ErrorModel:
             terms[:, index] = term(self.nominal, joints)
         return terms
 
-    def standing(self, parameters: np.ndarray, joints: np.ndarray, terms: np.ndarray) -> np.ndarray:
-        """Where the joints stand (n, joints) [rad, m].
-
-        Args:
-            parameters: (P,) of the model.
-            joints: (n, joints) rad, m that the controller assumes.
-            terms: (n, term, joints) theirs.
-        """
+    def standing(
+        self, parameters: np.ndarray, joints: np.ndarray, terms: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Where the joints stand (n, joints) [rad, m]; see `linearise`."""
+        terms = self.terms(joints) if terms is None else terms
         return joints + np.einsum("ntj,tj->nj", terms, self._coefficients(parameters))
 
     def predict(
@@ -253,7 +250,7 @@ class ErrorModel:
             joints: (n, joints) rad, m that the controller assumes.
             targets: (n,) the numbers of the sights; default: the first.
         """
-        standing = self.standing(parameters, joints, self.terms(joints))
+        standing = self.standing(parameters, joints)
         poses = np.empty((len(joints), 4, 4))
         for sight, rows in by_sight(targets, len(joints)):
             poses[rows] = self.arm(parameters, sight).forward(standing[rows])
@@ -263,15 +260,18 @@ class ErrorModel:
         self,
         parameters: np.ndarray,
         joints: np.ndarray,
-        terms: np.ndarray,
         targets: np.ndarray | None = None,
+        terms: np.ndarray | None = None,
     ) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) by the parameters.
 
         A Jacobian maps a change of the parameters to the target's translation [m] and turn [rad]
-        along the axes of the instrument. The terms are those of the joint coordinates; they depend
-        on no parameter, so that one evaluation serves all linearisations.
+        along the axes of the instrument.
+
+        Args:
+            terms: `terms` of the joints. They depend on no parameter: one evaluation serves all.
         """
+        terms = self.terms(joints) if terms is None else terms
         standing = self.standing(parameters, joints, terms)
         # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): it moves what the twist places
         motions = [

@@ -10,19 +10,19 @@ from recalib.identification.model.optics import Optics
 # do to the base of an arm and to a link.
 BASE = 0.05, np.radians(5)  # m, rad
 LINK = 0.02, np.radians(0.5)
-UNKNOWN = 0.5, np.radians(30)  # of what nobody knows, around an initial estimate
-HELD = 1e-9  # of what no observation can tell: it stays as it is
+UNKNOWN = 0.5, np.radians(30)  # of an unknown frame, around an initial estimate
+HELD = 1e-9  # of what is not identifiable from any observation: it stays as it is
 
 
 @dataclass(frozen=True)
 class Frames:
     """The frames at both ends of the arm, as they are before anything is identified.
 
-    Where one is known, what the arm's base or its last link is found to be beside it is an error of
-    the arm. Where it is not, that is a better estimate of it, and the arm's own base or last link
+    If a frame is known, a deviation that is identified there is an error of the arm's base or last
+    link. If it is unknown, the deviation improves its estimate, and the arm's own base or last link
     stays nominal: it is not identifiable.
 
-    What a row is of is a sight: an instrument, and a target that it measures.
+    Each row is of a sight: an instrument, and a target that it measures.
 
     Attributes:
         base: (4, 4) m, the pose of the arm's base in the frame of the (first) instrument.
@@ -32,15 +32,15 @@ class Frames:
         base_deviations, target_deviations: of translation [m] and turn [rad], before anything is
             known.
         base_unknown, targets_unknown: whether they are estimates.
-        optics_deviations: (o,) of the optics of cameras, of which there are none unless given.
+        optics_deviations: (o,) of the optics of cameras; default: none.
         further: (i, 4, 4) m, the pose of the base in the frames of further instruments, if there
             are any: then all frames are estimates.
         optics_kinds: (o,) which of `OPTICS` they are; default: the first of them.
-        sights: (s, 2) the numbers of the instrument and of the target of each sight; the first
-            instrument's of each target unless given.
+        sights: (s, 2) the numbers of the instrument and of the target of each sight; default: the
+            first instrument and each target.
         base_prior, target_prior: (6,) m and rad, standard deviations of the instrument's pose along
-            the axes of the arm's base, and of the targets' along those of the tool; none where they
-            are unknown or exact. What has them is an estimate.
+            the axes of the arm's base, and of the targets' along the tool's axes; none if they are
+            unknown or exact. A frame that has them is an estimate.
         link_deviations, offset_deviation: of links [m, rad] and joint offsets [rad] before anything
             is known; the latter is by default the prior of the joint terms.
     """

@@ -5,18 +5,18 @@ import numpy as np
 from recalib.errors import BadMeasurement
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.observations import Observations
-from recalib.loop.measurements import FARTHEST, POSE, are_poses
+from recalib.loop.external import FARTHEST, POSE, are_poses
 
 TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians
 
 
 def check_observations(observations: Observations, model: ErrorModel) -> None:
     """Raise BadMeasurement unless the parameters of a model can be identified from these."""
-    count, joints = len(observations), len(model.nominal.slides)
+    count, slides = len(observations), model.nominal.slides
     if count == 0:
         raise BadMeasurement("the number of observations", [0], "one or more")
     sizes: dict[str, list[tuple[int, ...]]] = {
-        "joints": [(count, joints)],
+        "joints": [(count, len(slides))],
         "targets": [(count,)],
     }
     if observations.measured is None:
@@ -28,7 +28,6 @@ def check_observations(observations: Observations, model: ErrorModel) -> None:
         if size not in fit:
             valid = " or ".join(map(str, fit))
             raise BadMeasurement(f"the size of the observations' {name!r}", size, valid)
-    slides = model.nominal.slides
     tables = [
         ("joint angles of measurement", observations.joints[:, ~slides], TURNED, "rad"),
         ("joint positions of measurement", observations.joints[:, slides], FARTHEST, "m"),
@@ -36,31 +35,30 @@ def check_observations(observations: Observations, model: ErrorModel) -> None:
     if observations.measured is not None:
         tables.append(("measurement", observations.measured, FARTHEST, "m in the base frame"))
     for what, values, most, unit in tables:
-        wrong = ~(np.abs(values) <= most).reshape(count, -1).all(axis=1)
-        if wrong.any():
-            row = wrong.argmax()
-            valid = f"numbers up to {most:.3g} ({unit})"
-            raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)
+        valid = f"numbers up to {most:.3g} ({unit})"
+        _check_each(what, values, np.abs(values) <= most, valid)
     check_rows(observations)
-    for what, numbers, most in (
-        ("target", observations.targets, len(model.frames.sights)),
-        ("socket", observations.sockets, len(model.frames.sockets)),
+    for what, numbers, end in (
+        ("target of measurement", observations.targets, len(model.frames.sights)),
+        ("socket of measurement", observations.sockets, len(model.frames.sockets)),
     ):
-        if numbers is not None and not (np.isin(numbers, np.arange(most))).all():
-            row = (~np.isin(numbers, np.arange(most))).argmax()
-            raise BadMeasurement(f"{what} of measurement {row}", [numbers[row]], f"below {most}")
+        if numbers is not None:
+            _check_each(what, numbers, np.isin(numbers, np.arange(end)), f"below {end}")
 
 
 def check_rows(observations: Observations) -> None:
     """Raise BadMeasurement unless all rows are numbers, and all measured matrices are poses."""
     joints, measured = observations.joints, observations.measured
-    tables = [("joint angles of measurement", joints, np.isfinite(joints).all(axis=1), "numbers")]
+    _check_each("joint angles of measurement", joints, np.isfinite(joints), "numbers")
     if measured is not None:
-        finite = np.isfinite(measured).reshape(len(measured), -1).all(axis=1)
-        tables.append(("measurement", measured, finite, "numbers"))
+        _check_each("measurement", measured, np.isfinite(measured), "numbers")
         if observations.kinds == 2:
-            tables.append(("measurement", measured, are_poses(measured), POSE))
-    for what, values, fit, valid in tables:
-        if not fit.all():
-            row = fit.argmin()
-            raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)
+            _check_each("measurement", measured, are_poses(measured), POSE)
+
+
+def _check_each(what: str, values: np.ndarray, good: np.ndarray, valid: str) -> None:
+    """Raise BadMeasurement for the first row (n, ...) of which not all is good."""
+    rows = good.reshape(len(good), -1).all(axis=1)
+    if not rows.all():
+        row = rows.argmin()
+        raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)

@@ -33,12 +33,20 @@ def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
 
 
+def displaced(pose: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """A pose (4, 4) [m] after a displacement (6,) [m, rad] along and about its frame's axes."""
+    moved = pose.copy()
+    moved[:3, 3] += step[:3]
+    moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
+    return moved
+
+
 class Linearisation:
     """Residuals and their slopes by the parameters over their deviations.
 
     Args:
         parameters: (P,) over their deviations, where to linearise.
-        terms: (n, term, joints) of the observations, which depend on no parameter.
+        terms: (n, term, joints) of the observations, for speed: they depend on no parameter.
 
     Attributes:
         residuals: (kind, n, 3) m, rad; `move` keeps them up to date.
@@ -51,7 +59,7 @@ class Linearisation:
         model: ErrorModel,
         parameters: np.ndarray,
         observations: Observations,
-        terms: np.ndarray,
+        terms: np.ndarray | None = None,
     ):
         self._origin = parameters
         self.residuals = np.empty((observations.kinds, len(observations), 3))
@@ -59,20 +67,21 @@ class Linearisation:
         parameters = parameters * model.deviations
         for first in range(0, len(observations), BLOCK):
             block = slice(first, first + BLOCK)
-            its = observations[block]
-            poses, jacobians = model.linearise(parameters, its.joints, terms[block], its.targets)
-            if its.measured is None:
+            batch = observations[block]
+            own = None if terms is None else terms[block]
+            poses, jacobians = model.linearise(parameters, batch.joints, batch.targets, own)
+            if batch.measured is None:
                 # where the centre goes, the residual goes: the other way than with the prediction
-                by_centre = jacobians[:, :3, model.socket_columns].reshape(len(its), 3, -1, 3)
-                by_centre[np.arange(len(its)), :, its.sockets] = -np.eye(3)
-                jacobians[:, :3, model.socket_columns] = by_centre.reshape(len(its), 3, -1)
-            residuals = displacements(poses, its.reached(model.sockets(parameters)))
-            if its.optics is not None:  # measured poses move with them: the other way
+                by_centre = jacobians[:, :3, model.socket_columns].reshape(len(batch), 3, -1, 3)
+                by_centre[np.arange(len(batch)), :, batch.sockets] = -np.eye(3)
+                jacobians[:, :3, model.socket_columns] = by_centre.reshape(len(batch), 3, -1)
+            residuals = displacements(poses, batch.reached(model.sockets(parameters)))
+            if batch.optics is not None:  # measured poses move with them: the other way
                 columns = model.optics_columns
-                residuals += its.optics.slopes @ parameters[columns]
+                residuals += batch.optics.slopes @ parameters[columns]
                 jacobians = jacobians[:, : residuals.shape[1]]
-                jacobians[:, :, columns] = -its.optics.slopes
-                residuals, jacobians = its.whitened(residuals), its.whitened(jacobians)
+                jacobians[:, :, columns] = -batch.optics.slopes
+                residuals, jacobians = batch.whitened(residuals), batch.whitened(jacobians)
             for kind in range(observations.kinds):
                 part = slice(3 * kind, 3 * kind + 3)
                 self.residuals[kind, block] = residuals[:, part]
@@ -92,7 +101,7 @@ class Linearisation:
     def normal_equations(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """J' W J (kind, P, P) and J' W r (kind, P), with weights (n,) up to 1 of the rows."""
         information, doubted = self._information, np.flatnonzero(weights < 1)
-        if len(doubted):  # they are few: what they have too much
+        if len(doubted):  # they are few: take off their surplus
             information = information.copy()
             for kind, rows in self._scaled(doubted, np.sqrt(1 - weights[doubted])):
                 information[kind] -= rows.T @ rows

@@ -57,7 +57,13 @@ class Observations:
     def __getitem__(self, rows: np.ndarray | slice) -> "Observations":
         """Some of the rows, by their numbers, by a mask or by a slice."""
         by_row = vars(self) | {"distances": None}
-        return replace(self, **{name: its[rows] for name, its in by_row.items() if its is not None})
+        some = {name: values[rows] for name, values in by_row.items() if values is not None}
+        return replace(self, **some)
+
+    def with_noise(self, covariance: np.ndarray) -> "Observations":
+        """The same by cameras, where displacements have further noise of a covariance (6, 6)."""
+        assert self.optics is not None
+        return replace(self, optics=self.optics.with_noise(covariance))
 
     def whitened(self, columns: np.ndarray) -> np.ndarray:
         """Displacements (n, 6, ...) of poses, weighted by their optics if there are any."""
@@ -83,7 +89,7 @@ class Observations:
 
     @property
     def kinds(self) -> int:
-        """Of what is measured in a row: 2 for position and orientation, 1 for a position alone."""
+        """The quantities in a row: 2 for position and orientation, 1 for a position alone."""
         return 2 if self.measured is not None and self.measured.ndim == 3 else 1
 
     @property

@@ -1,7 +1,7 @@
 """Poses that were measured by cameras: how sure they are, and how they depend on their optics.
 
-What lens and board are beside what they were taken for moves all poses together: these are
-parameters of the fit, like those of the arm.
+Errors of the assumed lens and board move all poses together: they are parameters of the fit, like
+the arm's.
 """
 
 from dataclasses import dataclass, replace
@@ -24,21 +24,21 @@ OPTICS = (
 
 @dataclass(frozen=True)
 class Optics:
-    """What poses by cameras are worth, row by row. A displacement is (6,) [m, rad].
+    """The information of poses from cameras, row by row. A displacement is (6,) [m, rad].
 
-    The optics are those of each board, then those of each camera whose lens is sought. What a row
-    has nothing to do with has zeros there.
+    The optics are the parameters of each board, then of each camera whose lens is estimated. Rows
+    have zeros for boards and cameras other than their own.
 
     Attributes:
         spread: (n, 6, 6) covariances of displacements, by the noise of the corners.
         slopes: (n, 6, o) by which measured poses move with the optics.
-        information: (n, o, o) that the pictures have of the optics, whatever the poses are.
+        information: (n, o, o) of the pictures on the optics, for any poses.
         gradient: (n, o) that goes with it: its sum is zero for the best optics of the pictures.
         pixels: (n, 6, 6) to vectors as long as the root mean square of what corners move [px].
         whitening: (n, 6, 6) to displacements whose components are independent, and as large as
-            those of a typical row: in its first three m, then rad.
-        kinds: (o,) which of `OPTICS` each is; the first of them, of one board and one camera,
-            unless given.
+            a typical row's: in its first three m, then rad.
+        kinds: (o,) which of `OPTICS` each is; default: the first of them, of one board and one
+            camera.
     """
 
     spread: np.ndarray
@@ -60,9 +60,8 @@ class Optics:
         return replace(self, whitening=_whitening(self.spread + covariance))
 
     def __getitem__(self, rows: np.ndarray | slice) -> "Optics":
-        by_row = vars(self) | {"kinds": None}
-        some = {name: its[rows] for name, its in by_row.items() if its is not None}
-        return Optics(**some, kinds=self.kinds)
+        some = {name: values[rows] for name, values in vars(self).items() if name != "kinds"}
+        return replace(self, **some)
 
     @property
     def length(self) -> float:

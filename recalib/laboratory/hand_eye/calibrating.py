@@ -129,7 +129,7 @@ class HandEyeResult:
             yield {PICTURE: name} | pose | corners | errors
 
 
-Progress = Callable[[str], None]  # called with what is being done, in a line each
+Progress = Callable[[str], None]  # called with the current step, in a line each
 
 
 def pictures_at(
@@ -140,7 +140,7 @@ def pictures_at(
     in_hand: bool = False,
     on_progress: Progress = lambda line: None,
 ) -> Observed:
-    """What pictures show, taken at poses of a flange; see `observe`, also for what it raises.
+    """The board in pictures that were taken at poses of a flange. Raises as `observe`.
 
     If the table has no column `picture`, its rows are in the order of the pictures' names.
     """

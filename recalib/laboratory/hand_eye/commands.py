@@ -42,7 +42,7 @@ def calibrate_poses(options: Options, on_progress: calibrating.Progress) -> int:
 
 
 def next_poses(options: Options) -> int:
-    """Write the poses of a flange that tell most of a camera's place."""
+    """Write the poses of a flange with the most information on a camera's place."""
     box = None if options.box is None else Box.read(options.box)
     cone = ANGLE.value_of("--cone", options.cone)
     poses, deviations = propose_poses(options.calibration, options.count, box, cone)

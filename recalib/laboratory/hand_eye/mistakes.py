@@ -5,7 +5,7 @@ one that explains them is named. Sizes are compared by the scale s of the board 
 
     R_X (s y_i) + x = R_Gi z + t_Gi,
 
-whose rotations are those of the fit.
+with the rotations of the fit.
 """
 
 from collections.abc import Iterator

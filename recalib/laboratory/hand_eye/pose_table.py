@@ -73,7 +73,7 @@ CONVENTIONS = {
     "matrix": Convention(MATRIX, lambda rows: Rotation.from_matrix(rows.reshape(-1, 3, 3)), "m"),
 }
 POSE = (*MATRIX[:3], "x", *MATRIX[3:6], "y", *MATRIX[6:], "z", *(f"last {n}" for n in range(4)))
-# without a convention, the headings of a table say what they are
+# without a convention, the headings of a table decide
 OWN = (
     *(Convention(columns.headings, turns) for columns, turns in TURNS.items()),
     *(Convention(("qw", "qx", "qy", "qz"), scalar_first), CONVENTIONS["matrix"]),
@@ -184,7 +184,7 @@ def read_poses(
 
 
 def _by_headings(table: Table) -> Convention:
-    """What the headings say. Raises InvalidFile if they are those of no rotation."""
+    """The convention of rotations, by the headings. Raises InvalidFile if there is none."""
     for way in OWN:
         if all(heading in table for heading in way.headings):
             return way

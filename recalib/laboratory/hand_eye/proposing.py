@@ -58,7 +58,7 @@ def propose_poses(
         accuracy = np.array([robot["millimetres"] / 1e3, np.radians(robot["degrees"])])
         found = HandEye.at(Sights(flange, flange, in_hand), camera, target)
 
-    def told(flange: np.ndarray) -> np.ndarray:
+    def information_at(flange: np.ndarray) -> np.ndarray:
         """The information (n, 12, 12) of pictures from poses of the flange."""
         views = []
         for pose in found.predict(Sights(flange, flange, in_hand)):
@@ -71,9 +71,9 @@ def propose_poses(
         return information(replace(HandEye.at(sights, camera, target), accuracy=accuracy))
 
     drawn = _drawn(found, board, lens, box, cone)
-    each = told(drawn)
+    each = information_at(drawn)
     scale = np.repeat([1.0, 1 / LEVER, 1.0, 1 / LEVER], 3)
-    total = told(flange).sum(axis=0) + np.diag(scale**-2.0)
+    total = information_at(flange).sum(axis=0) + np.diag(scale**-2.0)
     chosen: list[int] = []
     deviations = [_deviation(total)]
     for _ in range(min(count, len(drawn))):

@@ -46,7 +46,7 @@ class Box:
 
 
 class Problem(NamedTuple):
-    """Why an arm may not stand in a posture: what is there, and what was expected."""
+    """Why an arm may not stand in a posture: what was found and what was expected, in words."""
 
     found: str
     expected: str

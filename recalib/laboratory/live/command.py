@@ -86,7 +86,7 @@ def _settings(given: argparse.Namespace) -> LiveSettings:
 def _with_board(
     opening: Callable[[], Station], given: argparse.Namespace
 ) -> tuple[Callable[[], Station], Pictures]:
-    """What opens a station that takes pictures as one that measures, and what is in them."""
+    """A function that opens a station with a camera as one that measures, and the pictures."""
     from recalib.laboratory.pictures.observed import IN_HAND
     from recalib.station.pictures import BoardInPictures, PicturesOfABoard
     from recalib.vision.boards import read_board

@@ -1,4 +1,4 @@
-"""What the rows so far say: the arm's errors, the error that is left, and what to measure next.
+"""By the rows so far: the arm's errors, the remaining error, and what to measure next.
 
 All of it follows from the rows alone, without what an earlier update found: a calibration that was
 killed goes on as if it had not been. That is fast enough without many waves and a process.
@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.distance import cdist
 
-from recalib.identification.calibration import Calibration, most_probable
+from recalib.identification.calibration import Calibration, calibrations, choose
 from recalib.identification.checks.diagnostics import FEWEST
-from recalib.identification.checks.repeatability import returning
+from recalib.identification.checks.scales import returning
 from recalib.identification.design import most_informative, surprises
 from recalib.identification.initial_estimate import SPARE, fewest
 from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
@@ -29,8 +29,8 @@ from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED
 
 MODELS = OFFSETS, JOINT_ERRORS  # of which the more probable one is used
-FIRST = 20  # rows that tell where instrument and target are, to start from: more take longer
-RETURNING = slice(60)  # rows that tell how well the arm returns, for the same reason
+FIRST = 20  # rows for an initial estimate of instrument and target: more take longer
+RETURNING = slice(60)  # rows to estimate how well the arm returns, for the same reason
 LAST = 4  # rows whose predictions, each by the rows before it, are compared with them
 AHEAD = 10  # postures that have to be of use, or none is
 GATE, ROW = 4.0, 3  # standard deviations; so many rows in a row farther off are no outliers
@@ -81,22 +81,22 @@ class RunningCalibration:
                 model = ErrorModel(self._arm, OFFSETS, frames)
                 self._returning[count] = returning(model, observations[RETURNING])
                 observations = self._weighed(observations, count)
-            self._calibrations[count] = most_probable(self._arm, MODELS, observations, frames)
+            every = calibrations(self._arm, MODELS, observations, frames)
+            self._calibrations[count] = every[choose(every)]
         return self._calibrations[count]
 
     def _weighed(self, observations: Observations, count: int) -> Observations:
         """Rows by cameras, weighed as by the calibration of so many rows."""
         if observations.optics is None:
             return observations
-        optics = observations.optics.with_noise(self._returning[count])
-        return replace(observations, optics=optics)
+        return observations.with_noise(self._returning[count])
 
     def error(self, observations: Observations) -> float:
         """The predicted mean position error [m] in allowed postures.
 
-        It holds the noise, since nobody can tell from it what no parameter describes. What is not
-        known of the parameters counts as much more as the last rows surprised those before them;
-        infinite while they are too few to tell.
+        It includes the noise, which cannot be told from errors that no parameter describes. The
+        parameters' uncertainty is scaled by how far the last rows were off predictions from those
+        before them. Infinite while there are too few rows.
         """
         if len(observations) < FEWEST:
             return np.inf
@@ -163,7 +163,7 @@ class RunningCalibration:
     ) -> Iterator[tuple[int, np.ndarray]]:
         """Of candidates, numbers of postures as `most_informative` yields them.
 
-        A picture has the slopes of its own posture, and counts as sure as that of the nearest one.
+        A picture has the slopes of its own posture, and counts as sure as the nearest picture.
         """
         calibration, optics = self.calibration(observations), None
         numbers, _ = self._candidates(observations, avoided)
@@ -187,7 +187,7 @@ class RunningCalibration:
         """A message if the last rows contradict those before; otherwise None."""
         for count, gate, far in ((1, WILD, FAR), (ROW, GATE, 0.0)):
             before = len(observations) - count
-            # the first calibrations are poor, and do not know it
+            # the first calibrations are worse than their covariances
             fewest = FEWEST if count == ROW else 0
             if before < fewest or not self.is_ready(observations[: max(0, before)]):
                 continue

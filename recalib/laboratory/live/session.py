@@ -119,10 +119,10 @@ def calibrate_live(
         arm: the nominal one.
         table: CSV, new or begun by this function.
         ask: called before each move, returns whether to make it; default: all are made.
-        description: what the table does not say itself.
+        description: frames, distances and columns that the table cannot express.
         on_progress: called with lines for people.
-        on_row: called with the rows so far, and what calibrates by them.
-        pictures: what those of the column `picture` say, if the rows go by their pixels.
+        on_row: called with the rows so far, and the running calibration.
+        pictures: what reads the pictures of the column `picture`, if rows are measured by them.
         shapes: of the links, see `load_shapes`; without them, only the tool keeps off the floor.
 
     Raises RecalibError: UnsuitableRobot, StationFailed, Interrupted, or rows that do not fit.
@@ -184,7 +184,7 @@ def _where_it_will_be(postures: AllowedPostures) -> str:
 
 @dataclass(frozen=True)
 class _Session:
-    """A calibration that goes on: the station, what was measured, and what is to come.
+    """A calibration that goes on: the station, the rows so far, and the postures to come.
 
     Attributes:
         avoided: postures that a person skipped, or in which the target is not seen; it grows.

@@ -53,7 +53,7 @@ def observe(
     Args:
         folder: of the pictures.
         joints: a table (CSV) with a column `picture`, which names them.
-        board: the description of the board (TOML); the file's name is that of the board.
+        board: the description of the board (TOML), which has the name of the file.
         lens: a calibration of the lens (YAML of ROS or OpenCV; default: estimated).
         in_hand: whether the camera is on the hand.
         on_progress: called with the current step, in a line each.
@@ -118,10 +118,10 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
 
 
 def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool) -> list[Picture]:
-    """Without those of another size, those that are there twice, and those that are blurred.
+    """The pictures without those of another size, repeated ones and blurred ones.
 
     Args:
-        by_lens: whether the size is that of a lens which was given.
+        by_lens: whether the size is of a given lens.
     """
     expected = "expected, as by the lens" if by_lens else "expected"
     first: dict[str, str] = {}

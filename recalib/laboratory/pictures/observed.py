@@ -115,7 +115,7 @@ class Observed:
 
     @property
     def setup(self) -> str:
-        """A TOML of what was observed, and how."""
+        """A TOML of the board, the camera and the lens's source."""
         return (
             f'camera = "{IN_HAND if self.in_hand else FIXED}"\n'
             f"lens_from_pictures = {str(self.given is None).lower()}\n"

@@ -63,9 +63,9 @@ class Cell:
 
     @cached_property
     def optics(self) -> tuple[np.ndarray, list[np.ndarray]]:
-        """The kinds (o,) of all optics, and the numbers of those of each session.
+        """The kinds (o,) of all optics, and the numbers of each session's optics.
 
-        Those of each board come first, then those of each lens that is estimated.
+        The parameters of each board come first, then of each lens that is estimated.
         """
         parts = {("board", one.board_name): np.arange(len(BOARD)) for one in self.sessions}
         fitted = [one.camera for one in self.sessions if one.fitted]
@@ -162,7 +162,7 @@ def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataS
 
 
 def _lens_of(sessions: Sequence[Session]) -> tuple[Lens, str | None]:
-    """The lens of a camera, by the pictures of its sessions or as given, and what is doubtful."""
+    """The lens of a camera, by the pictures of its sessions or as given, and a doubt about it."""
     views = [(session.board, view) for session in sessions for view in session.views]
     given, fitted = sessions[0].lens, sessions[0].fitted
     if len(views) < FEWEST_VIEWS:
@@ -177,7 +177,7 @@ def _in_words(kind: str, names: Sequence[str]) -> list[str]:
 
 
 def _placed(part: Optics, own: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarray, ...]:
-    """The arrays of a session's optics, with its columns among those of the cell."""
+    """The arrays of a session's optics, with its columns among the cell's."""
     count, size = len(part.slopes), len(kinds)
     slopes, gradient = np.zeros((count, 6, size)), np.zeros((count, size))
     information = np.zeros((count, size, size))

@@ -45,7 +45,7 @@ Change = Callable[[np.ndarray], np.ndarray]
 
 
 class WrongNominal(RecalibError):
-    """Nominal positions that differ from those of the nominal arm.
+    """Nominal positions that differ from the nominal arm's.
 
     Args:
         gap: m, the largest difference.

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from recalib.identification.checks.gains import WrongGain
-from recalib.identification.checks.poses import turned_axes
+from recalib.identification.checks.postures import turned_axes
 from recalib.identification.checks.sequence import Fault
 from recalib.identification.model.frames import HELD, Frames
 from recalib.identification.parameters import Parameter
@@ -19,7 +19,7 @@ RESIZED = 0.015  # of a size: all links together are seldom so much longer
 TOGETHER = 0.3  # the part of residuals that remains if one factor for all links explains them
 OUTVOTED = 0.5  # of the rows of a sight: if more are outliers, it is not as described
 WORN = 3.0  # deviations of what wear is expected to do: beyond that is something else
-ENDS, NAMED = ("of base", "of tool", "of target"), 3  # what is named first, and how much is named
+ENDS, NAMED = ("of base", "of tool", "of target"), 3  # names that come first, and how many at most
 CONTRADICTED = 2.0  # times the error at random: more in both others is a contradiction
 MOST = 6  # rows that are listed
 

@@ -70,7 +70,7 @@ def _calibration(result: Results) -> dict[str, bytes]:
 
 
 def _check(result: Results, files: dict[str, bytes]) -> None:
-    """Raise InvalidFile unless files are read back as what was calibrated."""
+    """Raise InvalidFile unless the arms that are read back from files are the calibrated ones."""
     low, high = (end(result.data.observations.joints, axis=0) for end in (np.min, np.max))
     joints = np.random.default_rng(0).uniform(low, high, (PROBES, len(low)))
     urdf, (_, tool) = Path(URDF), result.corrected
@@ -89,7 +89,7 @@ def _check(result: Results, files: dict[str, bytes]) -> None:
 
 
 def _frame(place: Place, result: Results) -> dict[str, Any]:
-    """A place that was identified; what is unknown is empty."""
+    """An identified place; unknown values are empty."""
     fit = DOING[GEOMETRIC if result.worthwhile else NOTHING]
     numbers = {
         **dict(zip(("x [mm]", "y [mm]", "z [mm]"), 1e3 * place.position, strict=True)),

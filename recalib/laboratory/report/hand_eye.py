@@ -1,4 +1,4 @@
-"""Hand-eye calibration: where cameras and boards are, how sure that is, and what it is worth."""
+"""Hand-eye calibration: where cameras and boards are, how sure that is, and its errors."""
 
 from collections.abc import Mapping
 
@@ -44,7 +44,7 @@ def _arm_as_right(
 ) -> tuple[list[Place], dict[str, HeldOut]]:
     """The places of cameras and boards by the nominal arm, and errors in the same folds.
 
-    What is seen in several sights is where the first has it.
+    The first sight of a camera or a board determines its place.
     """
     data, arm = result.data, result.arm
     rows, links = data.observations, (arm.base, arm.tool)

@@ -14,7 +14,7 @@ LONGEST = 0.12  # m: so long is the largest error shown
 
 
 def recording_of(result: Results) -> tuple[bytes, str]:
-    """The recording of a calibration, in the arm's base, and what is missing from it, in words.
+    """The recording of a calibration, in the arm's base, and which parts it lacks, in words.
 
     Rerun reads fewer URDFs than Pinocchio: the recording of another one is empty. Raises
     InvalidSetting without a URDF.

@@ -15,7 +15,6 @@ from recalib.identification.model.frames import LINK, Frames
 from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance", "wear"
-FRAMES = "instrument", "target"
 EXACT = 1e-6  # m, rad: how well a number without a deviation is known where others have one
 ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
@@ -61,15 +60,16 @@ def read_description(path: str | PathLike[str]) -> Description:
         for part in parts:
             if part not in PARTS:
                 raise InvalidSetting("part", part, listed(PARTS, "or"))
-        (instrument, near), (target, next_to) = (_pose(part, parts) for part in FRAMES)
+        instrument, instrument_deviations = _pose("instrument", parts)
+        target, target_deviations = _pose("target", parts)
         encoders, links = _wear(parts.get("wear", {}))
         return Description(
             _columns(parts.get("columns", {})),
             instrument,
             target,
             distances_of(parts.get("distance", [])),
-            near,
-            next_to,
+            instrument_deviations,
+            target_deviations,
             encoders,
             links,
         )
@@ -84,7 +84,7 @@ def _columns(given: Any) -> dict[str, str]:
 
 
 def _pose(part: str, parts: Mapping[str, Any]) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """A pose (4, 4) [m], and its deviations (6,) [m, rad]; None of what is not stated."""
+    """A pose (4, 4) [m], and its deviations (6,) [m, rad]; None if not stated."""
     if part not in parts:
         return None, None
     given = parts[part]

@@ -21,7 +21,7 @@ from recalib.identification.calibration import Calibration
 from recalib.nominal.descriptions import link_of, local_name, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
 
-CORRECTED = "_corrected"  # after the tool's name, in that of the new link
+CORRECTED = "_corrected"  # ends the name of the new link, after the tool's name
 _TAG = re.compile(rb"</?(?P<prefix>(?:[^\s:>\"']+:)?)(?:[^>\"']|\"[^\"]*\"|'[^']*')*>")
 
 
@@ -49,7 +49,7 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
 def corrected_origins(
     source: bytes, calibration: Calibration
 ) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
-    """New origins (4, 4) by joint, and that of a new link for the tool, if it needs one."""
+    """New origins (4, 4) by joint, and of a new link for the tool, if it needs one."""
     nominal, parameters = calibration.model.nominal, calibration.estimate.parameters
     arm, offsets = calibration.model.own_arm(parameters), offset_poses(calibration)
     moving, (fixed, name) = _segments(source, nominal)
@@ -189,7 +189,7 @@ def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int, str]:
 
     def end(name: str) -> None:
         nonlocal last
-        # behind an empty element, expat's index is that of whatever comes next
+        # behind an empty element, expat's index is where the next token begins
         last = path[-1][1] or tag().end()
         if names() == ["joint", "origin"] and not spans[joint][1]:
             spans[joint] = spans[joint][0], last

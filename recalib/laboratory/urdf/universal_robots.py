@@ -1,8 +1,8 @@
 """Kinematics of a Universal Robots arm in the layout of ur_description (default_kinematics.yaml).
 
-There a joint's frame is that of Denavit and Hartenberg, with its z axis along the joint. A URDF may
-have other frames. Each differs from these by a fixed transformation, which follows from the nominal
-arm. So parallel axes move no frame far away.
+There a joint's frame is Denavit and Hartenberg's, with its z axis along the joint. A URDF may have
+other frames. Each differs from these by a fixed transformation, which follows from the nominal arm.
+So parallel axes move no frame far away.
 """
 
 import hashlib

@@ -37,13 +37,13 @@ def claims(study: Study) -> list[Claim]:
 
 def judge(evidence: Evidence) -> tuple[Finding, ...]:
     """What was found about each claim for which the study has what it takes."""
-    found = []
+    findings = []
     for claim in claims(evidence.study):
         try:
-            found.append(claim.judge(evidence))
+            findings.append(claim.judge(evidence))
         except NotMeasured:
             continue
-    return tuple(found)
+    return tuple(findings)
 
 
 def findings_of(study: Study) -> bytes:

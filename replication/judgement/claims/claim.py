@@ -67,7 +67,7 @@ class OfSetups:
         system: the algorithm of which the paper speaks.
         estimand: the number.
         comparison: with what it is compared.
-        beside: more numbers, by name and system, which decide nothing.
+        secondary: more numbers, by name and system, which decide nothing.
     """
 
     statement: Statement
@@ -75,7 +75,7 @@ class OfSetups:
     system: str
     estimand: Estimand
     comparison: Comparison = RATIO
-    beside: Mapping[tuple[str, str], Estimand] = field(default_factory=dict)
+    secondary: Mapping[tuple[str, str], Estimand] = field(default_factory=dict)
 
     @property
     def registered(self) -> tuple[object, ...]:
@@ -85,19 +85,19 @@ class OfSetups:
     def judge(self, evidence: Evidence) -> Finding:
         """Raises NotMeasured: too few setups have the number."""
         values = self.values(evidence)
-        its, setups = values.model(), values.table.index
-        numbers = [number(self.name, self.system, its.mean, its.another)]
-        for (name, system), estimand in self.beside.items():
-            other = estimand.values(evidence.outcomes()).model()
-            numbers.append(number(name, system, other.mean, other.another))
+        model, setups = values.model(), values.table.index
+        numbers = [number(self.name, self.system, model.mean, model.another)]
+        for (name, system), estimand in self.secondary.items():
+            secondary = estimand.values(evidence.outcomes()).model()
+            numbers.append(number(name, system, secondary.mean, secondary.another))
         return self.statement.finding(
-            self.comparison.verdict(its),
+            self.comparison.verdict(model),
             *numbers,
             spread=spread(
-                its,
+                model,
                 values.unsettled,
-                self.comparison.shares(its),
-                strongest(its.numbers, evidence.levels().loc[setups]),
+                self.comparison.shares(model),
+                strongest(model.numbers, evidence.levels().loc[setups]),
             ),
         )
 
@@ -141,7 +141,8 @@ Claim = OfSetups | Measured
 
 def of_all(*verdicts: Verdict) -> Verdict:
     """The verdict on a claim of several parts: that on the first which is not supported."""
-    return next((its for its in verdicts if its is not Verdict.SUPPORTED), Verdict.SUPPORTED)
+    unsupported = (verdict for verdict in verdicts if verdict is not Verdict.SUPPORTED)
+    return next(unsupported, Verdict.SUPPORTED)
 
 
 def log(limit: float) -> float:

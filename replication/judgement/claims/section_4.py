@@ -74,11 +74,11 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         late: iterations after which Ritter's maps are compared.
     """
 
-    def left(variant: str, error: Error = "both") -> Remaining:
+    def remaining(variant: str, error: Error = "both") -> Remaining:
         return Remaining(variant, late, error)
 
     def for_(error: Error, variant: str) -> Remaining:
-        return left(variant.format(error), error)
+        return remaining(variant.format(error), error)
 
     orders = {
         "position": (
@@ -148,8 +148,8 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
             "position error with tuned / with wide neighbourhoods of positions",
             TWO,
             Contrast(
-                left("two_maps_for_position", "position"),
-                left("two_maps_for_position_wide", "position"),
+                remaining("two_maps_for_position", "position"),
+                remaining("two_maps_for_position_wide", "position"),
             ),
         ),
         OfSetups(
@@ -166,9 +166,9 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
             "error if tuned for both / for each error alone",
             ONE,
             Compromise(
-                left(DOUBLE),
-                left("one_map_for_position", "position"),
-                left("one_map_for_orientation", "orientation"),
+                remaining(DOUBLE),
+                remaining("one_map_for_position", "position"),
+                remaining("one_map_for_orientation", "orientation"),
             ),
             RISES,
         ),
@@ -185,8 +185,8 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
             ),
             "error with two maps / with one",
             ONE_TWO,
-            Contrast(left(TWO_MAPS), left(DOUBLE)),
-            beside={
+            Contrast(remaining(TWO_MAPS), remaining(DOUBLE)),
+            secondary={
                 ("error with two maps / with one, 200 iterations", ONE_TWO): Contrast(
                     Remaining(TWO_MAPS, iterations), Remaining(DOUBLE, iterations)
                 ),
@@ -197,14 +197,14 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
     ]
     for error in errors:
-        words, wanted = orders[error]
+        words, widths = orders[error]
         found.append(
             OfSetups(
                 Statement(
                     f"widths-{error}",
                     "4",
                     words,
-                    f"The {error} map needs {wanted}.",
+                    f"The {error} map needs {widths}.",
                     f"After {late:,} iterations, the {error} error of two maps is smaller if the"
                     f" {error} map's final widths have the paper's order than in reverse order. The"
                     " other error stays within what a search for both finds.",

@@ -64,10 +64,10 @@ def nearer(kind: str) -> Callable[[Statement, Evidence], Finding]:
 def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
 
-    def left(variant: str) -> Remaining:
+    def remaining(variant: str) -> Remaining:
         return Remaining(variant, iterations)
 
-    both = Contrast(left(IMPROVED), left("improved_values"))
+    both = Contrast(remaining(IMPROVED), remaining("improved_values"))
     criterion = (
         "In at least 95 % of the balls in which the condition holds, the new update is better, over"
         " all scales of the damage and both starts. Better: E_upd below E_clas. The condition: f'"
@@ -91,10 +91,10 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             ),
             "error with increments of theta / with values",
             SYSTEM,
-            Contrast(left(IMPROVED), left("improved_theta_values")),
-            beside={
+            Contrast(remaining(IMPROVED), remaining("improved_theta_values")),
+            secondary={
                 ("error with increments of theta / with values", "Ritter's one map"): Contrast(
-                    left("ritter_theta_increments"), left(RITTER)
+                    remaining("ritter_theta_increments"), remaining(RITTER)
                 )
             },
         ),
@@ -124,10 +124,10 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             ),
             "error with increments of Jacobians / with values",
             SYSTEM,
-            Contrast(left(IMPROVED), left("improved_jacobian_values")),
-            beside={
+            Contrast(remaining(IMPROVED), remaining("improved_jacobian_values")),
+            secondary={
                 ("error with increments of Jacobians / with values", "Ritter's one map"): Contrast(
-                    left("ritter_jacobian_increments"), left(RITTER)
+                    remaining("ritter_jacobian_increments"), remaining(RITTER)
                 )
             },
         ),
@@ -155,7 +155,9 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             ),
             "advantage of increments after a drastic change / after the paper's",
             SYSTEM,
-            Difference(Contrast(left("improved_drastic"), left("improved_values_drastic")), both),
+            Difference(
+                Contrast(remaining("improved_drastic"), remaining("improved_values_drastic")), both
+            ),
             RATIO._replace(below=False),
         ),
         OfSetups(

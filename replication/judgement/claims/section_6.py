@@ -62,7 +62,7 @@ def expected_learning(statement: Statement, evidence: Evidence) -> Finding:
 def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
 
-    def left(variant: str) -> Remaining:
+    def remaining(variant: str) -> Remaining:
         return Remaining(variant, iterations)
 
     name = "error with equal visits / with exponential widths"
@@ -111,9 +111,11 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             ),
             name,
             "improved system",
-            Contrast(left(IMPROVED), left("improved_exponential")),
-            beside={
-                (name, "Ritter's one map"): Contrast(left("ritter_equal_visits"), left(RITTER))
+            Contrast(remaining(IMPROVED), remaining("improved_exponential")),
+            secondary={
+                (name, "Ritter's one map"): Contrast(
+                    remaining("ritter_equal_visits"), remaining(RITTER)
+                )
             },
         ),
     ]

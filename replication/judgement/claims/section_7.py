@@ -110,7 +110,7 @@ def speed_up(iterations: int) -> Callable[[Statement, Evidence], Finding]:
 
 def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
-    left = "larger remaining share of the two errors"
+    name = "larger remaining share of the two errors"
     return [
         Measured(
             Statement(
@@ -150,7 +150,7 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
                 " remains.",
                 "An order of magnitude is the least that a figure would show.",
             ),
-            left,
+            name,
             "improved system",
             Remaining(IMPROVED, iterations),
             Comparison(log(SMALL)),
@@ -196,7 +196,7 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
                 f" {iterations} iterations.",
                 "Figure 1, whose parameters were found so, has the same criterion.",
             ),
-            left,
+            name,
             "improved system, 16 settings tried",
             Remaining("improved_rough", iterations),
             Comparison(log(SMALL)),

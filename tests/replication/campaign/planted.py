@@ -25,19 +25,19 @@ Surface = Callable[[str, Mapping[str, np.ndarray], int, float], np.ndarray]
 
 @dataclass(frozen=True)
 class Planted:
-    """Trials on an analytic surface, with the luck of poses."""
+    """Trials on an analytic surface, with the noise of a choice of poses."""
 
     space: Space
     poses: SearchPoses | ResultPoses
     surface: Callable[[Mapping[str, np.ndarray]], np.ndarray]
-    luck: np.ndarray  # (run, 2) of these poses
+    noise: np.ndarray  # (run, 2) of these poses
 
     def first(self, runs: int) -> "Planted":
-        return replace(self, luck=self.luck[:runs])
+        return replace(self, noise=self.noise[:runs])
 
     def outcome(self, rows: np.ndarray) -> Outcome:
         logs = self.surface(dict(zip(self.space.columns, rows.T, strict=True)))
-        errors = np.exp(logs[:, None] + self.luck) * ARM
+        errors = np.exp(logs[:, None] + self.noise) * ARM
         return Outcome(errors, np.zeros(errors.shape[:2], dtype=int))
 
     def shares(self, rows: np.ndarray) -> np.ndarray:
@@ -45,7 +45,7 @@ class Planted:
 
     @cached_property
     def uncorrected(self) -> np.ndarray:
-        return np.tile(ARM, (len(self.luck), 1))
+        return np.tile(ARM, (len(self.noise), 1))
 
 
 class PlantedReplicate(Replicate):
@@ -54,21 +54,21 @@ class PlantedReplicate(Replicate):
     def __init__(self, study: Study, setup: Setup, replicate: int, surface: Surface, effect: float):
         self._study, self._setup, self._replicate = study, setup, replicate
         self._surface, self._effect = surface, effect
-        self._names = {id(its): name for name, its in variants(study).items()}
+        self._names = {id(variant): name for name, variant in variants(study).items()}
         self.name = ""
 
     def trials(
         self, variant: Variant, iterations: int, runs: int, stream: Stream, **words: int
     ) -> Planted:
         key = [self._setup.seed, self._replicate, list(Stream).index(stream), *words.values()]
-        luck = RUN * np.random.default_rng(key).normal(size=(runs, 2))
+        noise = RUN * np.random.default_rng(key).normal(size=(runs, 2))
         kind = SearchPoses if stream is Stream.SEARCH else ResultPoses
         none = np.zeros((runs, 0, 6))
 
         def surface(settings: Mapping[str, np.ndarray]) -> np.ndarray:
             return self._surface(self.name, settings, iterations, self._effect)
 
-        return Planted(self._space(variant), kind("planted", none, none), surface, luck)
+        return Planted(self._space(variant), kind("planted", none, none), surface, noise)
 
     def _space(self, variant: Variant) -> Space:
         return Space(
@@ -113,11 +113,11 @@ def campaign(
     known, tables = variants(study), []
     for setup, effect in zip(setups(len(effects), seed), effects, strict=True):
         for number in range(2 if setup.setup < 3 else 1):
-            its = PlantedReplicate(study, setup, number, surface, float(effect))
+            replicate = PlantedReplicate(study, setup, number, surface, float(effect))
             others: dict = {}
             for name in names:
-                its.name, variant = name, replace(known[name], at_home=())
-                table = its.measure(name, variant, others)
+                replicate.name, variant = name, replace(known[name], at_home=())
+                table = replicate.measure(name, variant, others)
                 others[name] = rows_of(table)
                 tables.append(table)
     return pd.concat(tables, ignore_index=True)

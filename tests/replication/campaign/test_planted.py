@@ -43,7 +43,9 @@ def one_map(name, settings, iterations, effect):
         return np.zeros((len(settings["initial_rate"]), 2))
     base = np.log(0.3) + rates(settings) + valley(settings["pose_g_kl"], 0.4)
     optima = 0.4 * np.exp(-effect / 2), 0.4 * np.exp(effect / 2)
-    return np.stack([base + valley(settings["pose_g_k"], its, 0.1) for its in optima], axis=-1)
+    return np.stack(
+        [base + valley(settings["pose_g_k"], optimum, 0.1) for optimum in optima], axis=-1
+    )
 
 
 def by_name(worse):
@@ -75,16 +77,12 @@ POSITION, ORIENTATION = names_of("position"), names_of("orientation")
 WIDE = [TWO_MAPS, "two_maps_for_position", "two_maps_for_position_wide"]
 ONE = [IMPROVED, DOUBLE, "one_map_for_position", "one_map_for_orientation"]
 THETA = [IMPROVED, "improved_theta_values"]
-CELLS = [
-    "small_supernet",
-    "small_subnet",
-    "small_supernet_for_position",
-    "small_subnet_for_position",
-]
+CELLS = [f"small_{net}{kind}" for kind in ("", "_for_position") for net in ("supernet", "subnet")]
 DRASTIC = [IMPROVED, "improved_values", "improved_drastic", "improved_values_drastic"]
 without = by_name({"improved_theta_values": 1})
 small = by_name({"small_subnet": 1, "small_subnet_for_position": 1})
 drastic = by_name({"improved_values": 1, "improved_values_drastic": 0.5})
+alike = by_name({"improved_values": 1, "improved_values_drastic": 1})
 SAME, OFTEN = np.zeros(SETUPS), np.full(SETUPS, 1.0)
 SIGNS = np.where(np.arange(SETUPS) % 2, 0.6, -0.6)
 VERDICTS = Verdict.SUPPORTED, Verdict.CONTRADICTED, Verdict.NO_EFFECT, Verdict.DEPENDS
@@ -92,13 +90,7 @@ YES, NO, NONE, DEPENDS = VERDICTS
 WORLDS = {
     "a narrow g_k for positions": ("widths-position", POSITION, widths_of_two_maps, 2 * OFTEN, YES),
     "equal widths for positions": ("widths-position", POSITION, widths_of_two_maps, SAME, NONE),
-    "a wide g_k for orientations": (
-        "widths-orientation",
-        ORIENTATION,
-        widths_of_two_maps,
-        2 * OFTEN,
-        YES,
-    ),
+    "a wide g_k for turns": ("widths-orientation", ORIENTATION, widths_of_two_maps, 2 * OFTEN, YES),
     "wide neighbourhoods hurt": ("large-neighbourhoods", WIDE, widths_of_two_maps, OFTEN, YES),
     "one map has two optima": ("no-good-solution", ONE, one_map, 2.5 * OFTEN, YES),
     "one map has one optimum": ("no-good-solution", ONE, one_map, SAME, NONE),
@@ -107,13 +99,7 @@ WORLDS = {
     "increments help here, hurt there": ("theta-increments", THETA, without, SIGNS, DEPENDS),
     "positions spare the supernet": ("cells-position", CELLS, small, 0.3 * OFTEN, YES),
     "a drastic change takes the advantage": ("not-drastic", DRASTIC, drastic, 0.8 * OFTEN, YES),
-    "a drastic change changes nothing": (
-        "not-drastic",
-        DRASTIC,
-        by_name({"improved_values": 1, "improved_values_drastic": 1}),
-        0.8 * OFTEN,
-        NONE,
-    ),
+    "a drastic change changes nothing": ("not-drastic", DRASTIC, alike, 0.8 * OFTEN, NONE),
     "Ritter's map needs long": ("long", [IMPROVED, DOUBLE], learning, np.log(90) * OFTEN, YES),
     "Ritter's map is nearly as fast": ("long", [IMPROVED, DOUBLE], learning, 1.5 * OFTEN, NO),
 }
@@ -135,6 +121,6 @@ def test_what_was_planted_is_found(study, world, monkeypatch):
     monkeypatch.setattr("replication.judgement.claims.claim.FEWEST", SETUPS)  # of a real campaign
     name, names, surface, effects, verdict = WORLDS[world]
     random = np.random.default_rng(len(world))
-    claim = next(its for its in claims(study) if its.statement.id == name)
+    claim = next(claim for claim in claims(study) if claim.statement.id == name)
     table = campaign(study, names, surface, effects + 0.03 * random.normal(size=SETUPS), 1)
     assert claim.comparison.verdict(claim.values(Table(table)).model()) is verdict

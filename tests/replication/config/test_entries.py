@@ -48,12 +48,12 @@ WRITTEN = [
 ]
 
 
-@pytest.mark.parametrize(("said", "meant"), WRITTEN, ids=[" ".join(said) for said, _ in WRITTEN])
-def test_entries_are_written_as_they_are_read(said, meant):
-    assert ENTRY.validate_python(said) == meant
-    assert describe(meant) == said
-    assert json.loads(ENTRY.dump_json(meant)) == said
-    assert ENTRY.validate_json(ENTRY.dump_json(meant)) == meant
+@pytest.mark.parametrize(("text", "entry"), WRITTEN, ids=[" ".join(text) for text, _ in WRITTEN])
+def test_entries_are_written_as_they_are_read(text, entry):
+    assert ENTRY.validate_python(text) == entry
+    assert describe(entry) == text
+    assert json.loads(ENTRY.dump_json(entry)) == text
+    assert ENTRY.validate_json(ENTRY.dump_json(entry)) == entry
 
 
 def test_a_shift_of_the_base_may_say_both():
@@ -64,9 +64,6 @@ def test_a_shift_of_the_base_may_say_both():
 
 @given(st.floats(0, 3), st.floats(-3, 3))
 def test_no_digit_is_lost(size, angle):
-    for entry in (
-        LinkShortening("a", size),
-        EncoderShift("a", angle),
-        EccentricGear("a", 1, angle),
-    ):
-        assert ENTRY.validate_json(ENTRY.dump_json(entry)) == entry
+    damages = LinkShortening("a", size), EncoderShift("a", angle), EccentricGear("a", 1, angle)
+    for damage in damages:
+        assert ENTRY.validate_json(ENTRY.dump_json(damage)) == damage

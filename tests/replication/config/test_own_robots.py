@@ -36,9 +36,8 @@ def entry_of(row) -> dict:
 def with_arm(folder, entry, **more):
     """As read before anything runs, like quick and with the paper's damage."""
     path = folder / "mine.yaml"
-    path.write_text(
-        yaml.safe_dump({"like": "quick", "robot": "mine", "robots": {"mine": entry}} | more)
-    )
+    mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry}}
+    path.write_text(yaml.safe_dump(mine | more))
     return study_of(ROOT, [path])
 
 
@@ -49,8 +48,8 @@ def test_an_arm_is_run_or_refused_in_a_sentence_that_is_true(row, tmp_path):
         return
     with pytest.raises(InvalidConfiguration) as caught:
         with_arm(tmp_path, entry_of(row))
-    (said,) = caught.value.mistakes
-    assert said.endswith(f": robots.mine.{row['says']}")
+    (message,) = caught.value.mistakes
+    assert message.endswith(f": robots.mine.{row['says']}")
 
 
 def test_the_table_has_all_arms_of_six_joints_and_more():
@@ -63,9 +62,9 @@ def test_a_robot_of_config_yaml_has_the_damages_that_it_declares_and_no_others(r
     """`gears` and `sag` of config.yaml are about the joints of a UR10, and are not run."""
     links = yaml.safe_load((ROOT / "config.yaml").read_text())["robots"][robot]["links"]
     fall = {"fall": [{"link": links[0], "shorten": "1 cm"}]}
-    its = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
+    plan = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
     path = tmp_path / "mine.yaml"
-    path.write_text(yaml.safe_dump({"like": "quick", "robot": robot} | its))
+    path.write_text(yaml.safe_dump({"like": "quick", "robot": robot} | plan))
     assert study_of(ROOT, [path]).robot == robot
 
 
@@ -73,8 +72,8 @@ def test_links_of_ones_own_are_asked_of_the_papers_damage_alone_where_it_is_used
     panda = next(row for row in ARMS if row["urdf"] == "panda.urdf")
     entry = entry_of(panda | {"links": ["panda_link5"]})  # which has no length
     fall = {"fall": [{"encoder": "panda_joint4", "shift": "3 deg"}]}
-    its = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
-    assert with_arm(tmp_path, entry, **its).scenario == "fall"
+    plan = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
+    assert with_arm(tmp_path, entry, **plan).scenario == "fall"
     with pytest.raises(
         InvalidConfiguration,
         match="list of 3; expected: at most 1, one for each of robots.mine.links",

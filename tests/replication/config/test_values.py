@@ -19,6 +19,7 @@ zeros: [08, -010]
 """
 BASE = {"a": 1, "b": [2, {"c": 3}]}
 INF = float("inf")
+NOTHING = "1:1: no configuration; expected: keys with their values"
 
 
 @pytest.fixture
@@ -84,11 +85,18 @@ def test_what_is_laid_over_it_keeps_its_own_place(whole):
         ("a: [1, 2\nb: 3\n", "2:2: no YAML: .* in what begins in line 1"),
         ("a: !!python/name:os.getcwd x\n", "1:1: no YAML: the tag .*os.getcwd"),
         ("? [a]\n: 1\n", "1:3: no YAML: a key that is no text"),
-        ("seed\n", "1:1: no configuration; expected: keys with their values"),
+        *((text, NOTHING) for text in ("seed\n", "", "# nothing\n", "{}\n", "---\n")),
+        (None, " No such file or directory"),
+        ("a: \udcff\n", " no text in UTF-8"),
+        ("a: \x07\n", " no text in UTF-8"),
+        pytest.param(
+            "a: " + "[" * 9999, " an anchor within itself, or too many brackets", id="deep"
+        ),
     ],
 )
 def test_what_is_no_configuration_is_refused_at_its_place(tmp_path, monkeypatch, text, says):
     monkeypatch.chdir(tmp_path)
-    Path("wrong.yaml").write_text(text, encoding="utf-8")
+    if text is not None:
+        Path("wrong.yaml").write_bytes(text.encode("utf-8", "surrogateescape"))
     with pytest.raises(InvalidConfiguration, match=f"^wrong.yaml:{says}$"):
         from_file("wrong.yaml")

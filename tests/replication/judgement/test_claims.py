@@ -12,9 +12,9 @@ from replication.judgement import Evidence, Verdict, read_findings, written
 from replication.judgement.claims import OfSetups, claims, judge
 from replication.running import write
 from replication.training import ERRORS, KINDS
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 
-SETUPS, OWN, LUCK = 24, 0.05, 0.01
+SETUPS, OWN, NOISE = 24, 0.05, 0.01
 BEST, LEFT = np.log(0.03), np.log(0.5)  # shares that the improved system and Ritter's map leave
 WORSE = 0.5  # of a logarithm: by which what the paper calls worse is
 
@@ -47,7 +47,7 @@ def world(study, paper: bool) -> pd.DataFrame:
             for number, (name, variant) in enumerate(variants(study).items()):
                 for iterations in (*lengths(variant, setup), *variant.until_reached):
                     log = _log(study, variant, iterations, paper)
-                    log += sign * PAPER.get(name, 0.0) + own[number] + LUCK * rng.normal()
+                    log += sign * PAPER.get(name, 0.0) + own[number] + NOISE * rng.normal()
                     keys = {"setup": setup, "replicate": replicate, "variant": name}
                     shares = dict.fromkeys((f"{kind}_share" for kind in KINDS), np.exp(log))
                     rows.append(keys | {"iterations": iterations, "settled": 1} | shares)
@@ -92,10 +92,14 @@ OF_SETUPS += " jacobian-increments cooperation schedule figure-1 long rough-sear
 OTHERS = "weak-coupling", "initial-error", "speed-up"  # by tables of the campaign, too
 
 
-def test_every_claim_of_setups_is_tried(study):
-    assert {its.statement.id for its in claims(study) if isinstance(its, OfSetups)} == {
-        *OF_SETUPS.split()
-    }
+def test_every_claim_says_all_of_itself_and_those_of_setups_are_tried(study):
+    tried = {claim.statement.id for claim in claims(study) if isinstance(claim, OfSetups)}
+    assert tried == {*OF_SETUPS.split()}
+    statements = [claim.statement for claim in claims(study)]
+    assert len({statement.id for statement in statements}) == len(statements)
+    for statement in statements:
+        for field in ("words", "claim", "criterion", "reason", "section"):
+            assert getattr(statement, field), (statement.id, field)
 
 
 @pytest.mark.parametrize("name", [*OF_SETUPS.split(), *OTHERS])
@@ -109,32 +113,22 @@ def test_a_world_of_the_opposite_contradicts_it(judged, name):
 
 
 def test_a_finding_has_mean_another_setup_heterogeneity_and_luck(judged):
-    its = judged[True]["theta-increments"]
-    number, spread = its.estimates[0], its.spread
+    finding = judged[True]["theta-increments"]
+    number, spread = finding.estimates[0], finding.spread
     assert number.value == pytest.approx(np.exp(-WORSE), rel=0.05)
     assert number.interval[0] < number.value < number.interval[1]
     assert number.predictive_interval[0] < number.interval[0]
     assert spread.setups == SETUPS and spread.unsettled == 0
-    assert spread.luck_interval[0] < np.sqrt(2) * LUCK < spread.luck_interval[1]
+    assert spread.luck_interval[0] < np.sqrt(2) * NOISE < spread.luck_interval[1]
     assert spread.between_interval[0] < np.sqrt(2) * OWN < spread.between_interval[1]
     assert spread.shares[Verdict.SUPPORTED] > 0.99
-    assert its.estimates[1].system == "Ritter's one map", "beside, another system"
-
-
-def test_the_factor_of_70_is_found_with_bounds_where_a_ladder_ends(judged):
-    its = judged[True]["speed-up"]
-    assert its.estimates[0].value == pytest.approx(70, rel=0.1)
-    assert its.published == "a factor of 70"
-
-
-def test_every_claim_says_all_of_itself(study):
-    every = [its.statement for its in claims(study)]
-    assert len({its.id for its in every}) == len(every)
-    for its in every:
-        assert its.words and its.claim and its.criterion and its.reason and its.section
+    assert finding.estimates[1].system == "Ritter's one map", "beside, another system"
+    finding = judged[True]["speed-up"]
+    assert finding.estimates[0].value == pytest.approx(70, rel=0.1)
+    assert finding.published == "a factor of 70"
 
 
 def test_without_results_nothing_is_judged(study, tmp_path):
     assert judge(Evidence(study, tmp_path)) == ()
-    other = study.model_copy(update={"name": "mine"})
+    other = changed(study, name="mine")
     assert judge(Evidence(other, tmp_path)) == ()

@@ -33,32 +33,25 @@ def numbers(values):
 
 
 def test_the_larger_share_counts_unless_one_error_is_asked_for():
-    assert numbers(ONE.values(TABLE)) == pytest.approx(
-        np.array([[0.3, 0.2], [0.5, np.nan]]), nan_ok=True
-    )
+    expected = np.array([[0.3, 0.2], [0.5, np.nan]])
+    assert numbers(ONE.values(TABLE)) == pytest.approx(expected, nan_ok=True)
     position = Remaining("one", 200, "position").values(TABLE)
     assert numbers(position)[0] == pytest.approx([0.1, 0.2])
 
 
-def test_a_contrast_is_a_ratio_in_the_same_setup_and_replicate():
+def test_a_contrast_is_a_ratio_in_the_same_setup_and_replicate_a_difference_one_of_ratios():
     found = Contrast(ONE, TWO).values(TABLE)
     assert numbers(found) == pytest.approx(np.array([[0.5, 2], [2.5, np.nan]]), nan_ok=True)
     assert not found.bounds.to_numpy().any()
-
-
-def test_a_difference_is_a_ratio_of_ratios():
     double = Contrast(ONE, TWO)
     nothing = Difference(double, double).values(TABLE)
     assert numbers(nothing) == pytest.approx(np.array([[1, 1], [1, np.nan]]), nan_ok=True)
-    assert numbers(Difference(double, Contrast(TWO, ONE)).values(TABLE))[0, 0] == pytest.approx(
-        0.25
-    )
+    other = Difference(double, Contrast(TWO, ONE)).values(TABLE)
+    assert numbers(other)[0, 0] == pytest.approx(0.25)
 
 
 def test_a_compromise_is_compared_with_the_larger_share_of_both_tuned_alone():
-    alone = [
-        Remaining(name, 200, error) for name, error in (("one", "position"), ("two", "orientation"))
-    ]
+    alone = Remaining("one", 200, "position"), Remaining("two", 200, "orientation")
     found = Compromise(TWO, *alone).values(TABLE)
     assert numbers(found)[0, 0] == pytest.approx(0.6 / 0.2)  # of 0.1 and 0.2
 
@@ -70,7 +63,10 @@ def test_searches_that_have_not_converged_are_counted_in_all_that_is_compared():
 
 
 LADDER = [
-    *((0, 0, "slow", its, share, 0.01) for its, share in ((200, 0.9), (2000, 0.3), (20_000, 0.03))),
+    *(
+        (0, 0, "slow", iterations, share, 0.01)
+        for iterations, share in ((200, 0.9), (2000, 0.3), (20_000, 0.03))
+    ),
     (0, 0, "one", 200, 0.1, 0.02),
 ]
 
@@ -82,9 +78,7 @@ def test_a_factor_is_interpolated_between_two_lengths_on_logarithmic_scales():
     assert found.bounds.to_numpy().tolist() == [[0]]
 
 
-@pytest.mark.parametrize(
-    ("goal", "factor", "bound"), [(0.02, 100, 1), (0.95, 1, -1), (0.03, 100, 0)]
-)
+@pytest.mark.parametrize("goal, factor, bound", [(0.02, 100, 1), (0.95, 1, -1), (0.03, 100, 0)])
 def test_where_a_ladder_ends_the_factor_is_a_bound(goal, factor, bound):
     rows = [*LADDER[:-1], (0, 0, "one", 200, goal, 0.01)]
     found = Crossing("slow", ONE).values(outcomes(rows))

@@ -11,44 +11,43 @@ from tests.conftest import ROOT
 
 
 @pytest.fixture(scope="module")
-def told() -> Deviations:
+def record() -> Deviations:
     return Deviations.read(ROOT)
 
 
-def changes(told: Deviations) -> list[Change]:
+def changes(record: Deviations) -> list[Change]:
     """All of them, in the order of time."""
-    earlier = [change for its in reversed(told.withdrawn) for change in its.changes]
-    return [*earlier, *told.deviations]
+    earlier = [change for campaign in reversed(record.withdrawn) for change in campaign.changes]
+    return [*earlier, *record.deviations]
 
 
-def test_what_is_registered_is_as_the_last_entry_names_it(told, study):
-    changed = told.untold(digests(study, ROOT))
+def test_what_is_registered_is_as_the_last_entry_names_it(record, study):
+    changed = record.undeclared(digests(study, ROOT))
     assert not changed, (
         f"{', '.join(changed)}: not as {DEVIATIONS} names it last. Try: add an entry there, with"
         " what `python -m replication.judgement.deviations` prints below `digests`"
     )
 
 
-def test_an_entry_replaces_what_was_registered(told):
-    entry = told.deviations[0].model_copy(update={"digests": {"b": "2", "c": REMOVED}})
-    its = told.model_copy(
-        update={"registered": {"a": "1", "b": "1", "c": "1"}, "deviations": (entry,)}
-    )
-    assert its.untold({"a": "1", "b": "2"}) == {}
-    found = its.untold({"b": "1", "c": "1", "d": "1"})
+def test_an_entry_replaces_what_was_registered(record):
+    entry = record.deviations[0].model_copy(update={"digests": {"b": "2", "c": REMOVED}})
+    registered = dict.fromkeys("abc", "1")
+    amended = record.model_copy(update={"registered": registered, "deviations": (entry,)})
+    assert amended.undeclared({"a": "1", "b": "2"}) == {}
+    found = amended.undeclared({"b": "1", "c": "1", "d": "1"})
     assert found == {"b": "1", "c": "1", "d": "1", "a": REMOVED}
 
 
-def test_entries_are_in_the_order_of_time(told):
-    times = [change.when for change in changes(told)]
+def test_entries_are_in_the_order_of_time(record):
+    times = [change.when for change in changes(record)]
     assert times == sorted(times)
 
 
-def test_entries_have_the_times_of_their_commits(told):
-    stated = {change.commit: change.when for change in changes(told)}
+def test_entries_have_the_times_of_their_commits(record):
+    stated = {change.commit: change.when for change in changes(record)}
     command = ["git", "show", "--no-patch", "--format=%ct", *stated]
-    ran = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
-    if ran.returncode:
+    process = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
+    if process.returncode:
         pytest.skip("needs the project's history")
-    at = [datetime.fromtimestamp(int(its), UTC) for its in ran.stdout.split()]
-    assert [*stated.values()] == [f"{its:%Y-%m-%d %H:%M}" for its in at]
+    times = [datetime.fromtimestamp(int(time), UTC) for time in process.stdout.split()]
+    assert [*stated.values()] == [f"{time:%Y-%m-%d %H:%M}" for time in times]

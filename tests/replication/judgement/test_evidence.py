@@ -1,11 +1,14 @@
 """What claims, figures and pages read of a study, and what it lacks."""
 
+from operator import methodcaller
+
 import pandas as pd
 import pytest
 
 from replication.judgement import Evidence, NotMeasured
 from replication.running import write
 from replication.training import ERRORS
+from tests.conftest import changed
 
 
 @pytest.fixture
@@ -22,11 +25,8 @@ def evidence(study, tmp_path):
     return Evidence(study, tmp_path)
 
 
-def test_a_history_is_that_of_one_length(evidence):
+def test_a_history_is_that_of_one_length_and_errors_its_first_or_last_ones_by_seed(evidence):
     assert set(evidence.history("improved", 500)["iteration"]) == {0, 500}
-
-
-def test_errors_are_the_first_or_last_ones_by_seed(evidence):
     assert evidence.errors("improved", 200).tolist() == [[200, 200], [300, 200]]
     assert evidence.errors("improved", 200, first=True).tolist() == [[0, 200], [100, 200]]
 
@@ -34,12 +34,12 @@ def test_errors_are_the_first_or_last_ones_by_seed(evidence):
 @pytest.mark.parametrize(
     ("ask", "key"),
     [
-        (lambda its: its.history("improved", 201), r"experiments\.learners\.improved: \[201\]"),
-        (lambda its: its.history("improved", 200, "gears"), r"learners\.improved: \[200\]"),
-        (lambda its: its.mapping("widths"), "mapping/widths.parquet"),
-        (lambda its: its.outcomes(), "workflow/campaign/outcomes.csv"),
-        (lambda its: its.assignments(), "assignments/ur10.parquet"),
-        (lambda its: its.findings(), "claims.json"),
+        (methodcaller("history", "improved", 201), r"experiments\.learners\.improved: \[201\]"),
+        (methodcaller("history", "improved", 200, "gears"), r"learners\.improved: \[200\]"),
+        (methodcaller("mapping", "widths"), "mapping/widths.parquet"),
+        (methodcaller("outcomes"), "workflow/campaign/outcomes.csv"),
+        (methodcaller("assignments"), "assignments/ur10.parquet"),
+        (methodcaller("findings"), "claims.json"),
     ],
 )
 def test_what_a_study_lacks_is_named(evidence, ask, key):
@@ -50,6 +50,5 @@ def test_what_a_study_lacks_is_named(evidence, ask, key):
 def test_the_campaign_is_that_of_the_shipped_study(study, tmp_path):
     write(tmp_path / "workflow/campaign/outcomes.csv", pd.DataFrame({"setup": [0]}))
     assert len(Evidence(study, tmp_path).outcomes()) == 1
-    other = study.model_copy(update={"name": "mine"})
     with pytest.raises(NotMeasured, match="name: replication"):
-        Evidence(other, tmp_path).outcomes()
+        Evidence(changed(study, name="mine"), tmp_path).outcomes()

@@ -1,10 +1,11 @@
-"""Mean, heterogeneity and luck. That they cover the truth is in campaign/test_table_to_verdict."""
+"""Mean, heterogeneity and noise. Their coverage is tested in campaign/test_table_to_verdict."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.stats import t as student_t
 
-from replication.judgement import hierarchy, model, student
+from replication.judgement import hierarchy, model, strongest, student
 
 # Trials of the BCG vaccine (Colditz et al. 1994, JAMA 271): vaccinated with and without
 # tuberculosis, others with and without. Log risk ratios have known variances.
@@ -45,12 +46,12 @@ def test_a_mean_has_students_interval_and_another_setup_a_wider_one():
     assert hierarchy.another(values) == pytest.approx(mean + ends * np.sqrt(1 + 1 / 12))
 
 
-def table(own, luck=0.1, seed=0):
+def table(own, noise=0.1, seed=0):
     rng = np.random.default_rng(seed)
     values = np.full((30, 2), np.nan)
     setups = 0.5 + own * rng.normal(size=30)
-    values[:, 0] = setups + luck * rng.normal(size=30)
-    values[:10, 1] = setups[:10] + luck * rng.normal(size=10)
+    values[:, 0] = setups + noise * rng.normal(size=30)
+    values[:10, 1] = setups[:10] + noise * rng.normal(size=10)
     return values
 
 
@@ -60,11 +61,8 @@ def test_luck_is_told_from_what_is_a_setups_own():
     assert found.heterogeneity.low < 0.4 < found.heterogeneity.high
     assert found.mean.low < 0.5 < found.mean.high
     assert found.another.high - found.another.low > 3 * (found.mean.high - found.mean.low)
-    alike = model(table(own=0.0, luck=0.3))
+    alike = model(table(own=0.0, noise=0.3))
     assert alike.heterogeneity.low == 0
-
-
-def test_shares_of_setups_are_those_of_a_normal_distribution():
     below, within, above = (
         model(table(own=0.4))
         ._replace(mean=hierarchy.Estimate(0, 0, 0), heterogeneity=hierarchy.Estimate(1, 1, 1))
@@ -78,5 +76,32 @@ def test_a_bound_counts_as_one_and_not_as_a_number():
     values = table(own=0.4)
     end = np.nanquantile(values, 2 / 3)
     cut, bounds = np.minimum(values, end), (values > end).astype(int)
-    whole, known, naive = (model(*its).mean.mean for its in ((values,), (cut, bounds), (cut,)))
+    whole, known, naive = (
+        model(*arguments).mean.mean for arguments in ((values,), (cut, bounds), (cut,))
+    )
     assert abs(known - whole) < 0.05 < whole - naive
+
+
+SETUPS = 30
+
+
+def levels(random) -> pd.DataFrame:
+    factors = {name: np.arange(SETUPS) % count for name, count in (("a", 2), ("b", 3), ("c", 5))}
+    return pd.DataFrame({name: random.permutation(column) for name, column in factors.items()})
+
+
+def test_the_factor_that_moves_a_number_is_named():
+    random = np.random.default_rng(1)
+    design = levels(random)
+    numbers = 0.1 * random.normal(size=SETUPS) + 0.2 * (design["b"] == 2)
+    assert strongest(numbers.to_numpy(), design) == "b"
+
+
+def test_in_95_percent_no_factor_without_effect_is_named():
+    named = 0
+    for repetition in range(200):
+        random = np.random.default_rng(repetition)
+        named += strongest(random.normal(size=SETUPS), levels(random)) is not None
+    assert named <= 19, "of 200: the binomial's 99 %"
+    design = pd.DataFrame({"a": ["x", "y", "z"], "b": ["x", "x", "x"]})
+    assert strongest(np.array([0.0, 5.0, 9.0]), design) is None

@@ -82,11 +82,14 @@ def test_where_setups_differ_and_none_prevails_it_depends(between, verdict):
     assert RATIO.verdict(model) is verdict
 
 
-def test_where_setups_differ_and_nearly_all_agree_the_mean_decides():
+def test_where_nearly_all_setups_agree_the_mean_decides_and_shares_have_intervals():
     model = over_setups(interval(0.3, 0.4), Estimate(0.4, 0.3, 0.5))
     assert RATIO.verdict(model) is YES
     shares = RATIO.shares(model)
     assert sum(shares.values()) == pytest.approx(1) and shares[YES] > 0.98
+    assert share_interval(24, 30) == pytest.approx((0.6143, 0.9229), abs=1e-4)
+    assert share_interval(0, 10) == pytest.approx((0, 0.3085), abs=1e-4)
+    assert share_interval(10, 10) == pytest.approx((0.6915, 1), abs=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -111,9 +114,3 @@ def test_a_published_number_is_compared_with_an_interval(low, high, verdict):
 )
 def test_a_claim_about_every_setup_holds_in_all_of_many(holds, setups, verdict):
     assert of_share(holds, setups) is verdict
-
-
-def test_the_interval_of_a_share_is_clopper_and_pearsons():
-    assert share_interval(24, 30) == pytest.approx((0.6143, 0.9229), abs=1e-4)
-    assert share_interval(0, 10) == pytest.approx((0, 0.3085), abs=1e-4)
-    assert share_interval(10, 10) == pytest.approx((0.6915, 1), abs=1e-4)

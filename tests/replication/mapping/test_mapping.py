@@ -1,3 +1,5 @@
+"""The mapping from desired poses to commands, and the quantisation of its domain."""
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -5,15 +7,19 @@ import pytest
 from recalib import BaseShift, EncoderShift, LinkShortening, Plant, apply
 from replication.judgement.claims import integral_ratios
 from replication.mapping import (
+    RATES,
+    WIDTHS,
     are_same,
     ball,
     grown,
     joint_solutions,
+    kohonen,
     mapping_jacobians,
     propagation_errors,
     true_commands,
 )
 from replication.mapping.coupling import coupling
+from replication.mapping.quantisation import quantisation
 from replication.mapping.solutions import solutions
 from replication.mapping.visits import visits
 
@@ -28,6 +34,7 @@ def test_the_true_commands_take_the_damaged_arm_to_the_desired_poses(controller,
     achieved = Plant(controller, damaged).execute(commands[None]).achieved[0]
     assert np.allclose(achieved, desired, atol=1e-9)
     assert np.abs(commands - desired).max() > 0.1
+    assert np.isnan(true_commands(controller, damaged, np.array([[20.0, 0, 0, 0, 0, 0]]))).all()
 
 
 def test_the_intact_mapping_is_the_identity(controller, robot, desired):
@@ -43,10 +50,6 @@ def test_the_jacobian_is_the_slope_of_the_true_commands(controller, damaged, des
         controller, damaged, desired - step
     )
     assert np.allclose(jacobians @ (2 * step), change, atol=1e-7)
-
-
-def test_a_pose_out_of_reach_has_no_command(controller, damaged):
-    assert np.isnan(true_commands(controller, damaged, np.array([[20.0, 0, 0, 0, 0, 0]]))).all()
 
 
 def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damaged):
@@ -65,9 +68,8 @@ def test_a_pose_has_many_joint_solutions_and_one_command(controller, robot, dama
 def test_joint_solutions_are_counted_once_and_all_reach_the_pose(controller, robot, damaged):
     pose = robot.workspace.to_poses(np.zeros((1, 6)))
     own = controller.solve(pose).angles
-    starts = np.vstack(
-        [own, own + 2 * np.pi, own, np.random.default_rng(1).uniform(-3, 3, (60, 6))]
-    )
+    others = np.random.default_rng(1).uniform(-3, 3, (60, 6))
+    starts = np.vstack([own, own + 2 * np.pi, own, others])
     limits = np.full(6, -9.0), np.full(6, 9.0)
     found = joint_solutions(damaged, pose[0], starts, limits)
     assert np.allclose(damaged.forward(found), pose, atol=1e-9)
@@ -109,10 +111,7 @@ def test_the_condition_of_section_5_takes_the_best_constants_and_not_those_of_th
     for name, matrix in (("to_constant", n), ("to_original", n - m)):
         assert found[name] == pytest.approx(np.trace(matrix @ np.cov(OFFSETS.T, ddof=0) @ matrix.T))
     at_centre = OFFSETS.mean(axis=0)  # by how much the mean is not the value at the centre
-    for least, rule, matrix in (
-        ("to_constant", "classic", n),
-        ("to_original", "updated", n - m),
-    ):
+    for least, rule, matrix in (("to_constant", "classic", n), ("to_original", "updated", n - m)):
         gap = np.square(matrix @ at_centre).sum()
         assert found[rule] == pytest.approx(found[least] + gap, rel=1e-10) and gap > 0
 
@@ -147,18 +146,51 @@ def test_visits_agree_with_the_formula_in_the_middle_and_halve_on_a_face():
 
 
 def test_links_are_shortened_by_what_the_paper_says_at_most():
-    damages = [LinkShortening("forearm_link", 0.04), EncoderShift("elbow_joint", 0.1)]
-    assert grown(damages, 0.5) == [
-        LinkShortening("forearm_link", 0.02),
-        EncoderShift("elbow_joint", 0.05),
-    ]
-    assert grown(damages, 4) == [
-        LinkShortening("forearm_link", 0.04),
-        EncoderShift("elbow_joint", 0.4),
-    ]
+    def damages(short, shifted):
+        return [LinkShortening("forearm_link", short), EncoderShift("elbow_joint", shifted)]
+
+    assert grown(damages(0.04, 0.1), 0.5) == damages(0.02, 0.05)
+    assert grown(damages(0.04, 0.1), 4) == damages(0.04, 0.4)
 
 
 def test_a_scale_with_a_ball_that_cannot_be_commanded_is_left_out():
     table = pd.DataFrame({"kind": "theta", "start": "intact", "scale": [1, 1, 2, 2]})
     table = table.assign(classic=2.0, updated=[1.0, 3.0, 1.0, np.nan])
     assert integral_ratios(table).to_dict() == {("theta", "intact", 1): 1.0}
+
+
+def test_the_kohonen_rule_agrees_with_itself_written_out_cell_by_cell():
+    rng = np.random.default_rng(1)
+    starts, poses = rng.uniform(-1, 1, (2, 6, 3)), rng.uniform(-1, 1, (2, 30, 3))
+    found = kohonen(starts, poses, (3, 2))
+    places = [np.array([i, j]) for i in range(3) for j in range(2)]
+    for run in range(2):
+        w = starts[run].copy()
+        for t, u in enumerate(poses[run]):
+            winner = int(np.argmin([np.linalg.norm(u - each) for each in w]))
+            width = WIDTHS[0] * (WIDTHS[1] / WIDTHS[0]) ** (t / 30)
+            rate = RATES[0] * (RATES[1] / RATES[0]) ** (t / 30)
+            for i in range(6):
+                d = np.linalg.norm(places[i] - places[winner])
+                w[i] = w[i] + rate * np.exp(-(d**2) / (2 * width**2)) * (u - w[i])
+        assert np.allclose(found[run], w, rtol=0, atol=1e-12)
+
+
+@pytest.fixture(scope="module")
+def line():
+    """Two cells on a line, for which all that is known: s / sqrt(3) for a box of half-width s."""
+    return quantisation(7, shape=(2,), iterations=(2, 2000), seeds=4)
+
+
+def test_every_placement_of_two_cells_on_a_line_is_as_good_as_calculated(line):
+    assert line.columns.tolist() == ["placement", "seed", "distance"]
+    by_placement = line.groupby("placement", sort=False)["distance"]
+    names = ["boxes", "faces", "kohonen_2", "kohonen_2000", "kmeans"]
+    assert by_placement.size().to_dict() == dict.fromkeys(names, 4)
+    best = 0.5 / np.sqrt(3)
+    mean = by_placement.mean()
+    assert mean["boxes"] == pytest.approx(best, rel=0.01)
+    assert mean["faces"] == pytest.approx(2 * best, rel=0.01)
+    assert mean["kmeans"] == pytest.approx(best, rel=0.01)
+    assert mean["kohonen_2000"] == pytest.approx(best, rel=0.05)
+    assert mean["kohonen_2"] > 1.1 * best, "two poses cannot place two cells"

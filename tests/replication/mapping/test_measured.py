@@ -9,6 +9,7 @@ from replication.judgement.claims import Measured, claims
 from replication.mapping import measured, nearness, quantisation, solutions
 from replication.running import write
 from replication.training import Place, constant_widths, places, write_scenarios
+from tests.conftest import changed
 
 FIRST = "coupling", "nearness", "propagation", "quantisation", "solutions", "visits"
 SECOND = "replay", "widths"
@@ -24,13 +25,9 @@ OF_MORE = "grid", "weak-coupling-reason", "coarse-widths"  # draws and seeds tha
 
 @pytest.fixture(scope="module")
 def few(study):
-    plan = study.experiments.model_copy(
-        update={"scenarios": ("links_encoders", "rotation"), "robots": ()}
-    )
-    mapping = study.mapping.model_copy(
-        update={"poses": 6, "balls": 3, "points": 10, "scales": (0.5, 1.0)}
-    )
-    return study.model_copy(update={"experiments": plan, "mapping": mapping, "name": "few"})
+    plan = {"scenarios": ("links_encoders", "rotation"), "robots": ()}
+    mapping = {"poses": 6, "balls": 3, "points": 10, "scales": (0.5, 1.0)}
+    return changed(study, experiments=plan, mapping=mapping, name="few")
 
 
 @pytest.fixture(scope="module")
@@ -56,20 +53,19 @@ def evidence(few, settings, tmp_path_factory):
 
 @pytest.mark.parametrize("name", [*JUDGED, *OF_MORE])
 def test_claims_about_the_mapping_are_judged_by_what_is_measured(few, evidence, name):
-    claim = next(its for its in claims(few) if its.statement.id == name)
+    claim = next(claim for claim in claims(few) if claim.statement.id == name)
     assert isinstance(claim, Measured)
     finding = claim.judge(evidence)
-    assert all(np.isfinite(its.value) for its in finding.estimates) and finding.estimates
+    assert all(np.isfinite(estimate.value) for estimate in finding.estimates) and finding.estimates
     if name in JUDGED:
         assert finding.verdict is JUDGED[name]
 
 
-def test_the_cross_effect_is_measured_in_each_scenario(few, evidence):
+def test_the_cross_effect_is_measured_in_each_scenario_and_what_lacks_is_said(
+    few, evidence, tmp_path
+):
     table = evidence.mapping("coupling")
     assert table.groupby("scenario").size().to_dict() == {"links_encoders": 6, "rotation": 6}
     assert table[table["scenario"] == "rotation"][["position", "orientation"]].max().max() < 1e-3
-
-
-def test_what_is_not_measured_is_said_to_lack(few, evidence, tmp_path):
     with pytest.raises(NotMeasured, match="solutions"):
         Evidence(few, tmp_path).mapping("solutions")

@@ -1,6 +1,5 @@
 """A project with a synthetic campaign, from which all pages can be written."""
 
-import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -10,10 +9,11 @@ import pandas as pd
 import pytest
 
 from replication.config import Study, root_of
-from replication.judgement import Evidence, written
+from replication.judgement import Evidence, summarise, written
 from replication.judgement.claims import judge
+from replication.running import write
 from replication.training import ERRORS, Place, places
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import outcomes
 
 COMMITTED = "config.yaml", "pyproject.toml", "workflow/deviations.yaml"
@@ -21,24 +21,12 @@ CAMPAIGN = "workflow/campaign/design.csv", "workflow/campaign/second.yaml"
 INITIAL, FINAL = (8.4, 4.7), (0.32, 0.23)  # cm, degrees
 
 
-def summary(study: Study) -> pd.DataFrame:
-    """Errors of the main learners in the study's own scenario."""
-    rows = [
-        {"robot": study.robot, "scenario": study.scenario, "learner": learner, "iterations": its}
-        | {"seeds": 20, "moves": 2 * its}
-        | {f"initial_{error}": value for error, value in zip(ERRORS, INITIAL, strict=True)}
-        | {f"final_{error}": value for error, value in zip(ERRORS, FINAL, strict=True)}
-        for learner, lengths in study.experiments.learners.items()
-        for its in lengths
-    ]
-    return pd.DataFrame(rows)
-
-
 def history(iterations: int) -> pd.DataFrame:
-    """Errors of two seeds before and after learning; their logarithms differ by 0.02."""
+    """Errors of two seeds before and after learning; they differ by 2 %."""
     rows = [
         {"iterations": iterations, "seed": seed, "iteration": iteration}
-        | {error: value * np.exp(0.02 * seed) for error, value in zip(ERRORS, errors, strict=True)}
+        | {"moves": 2 * iteration, "refused": 0}
+        | {error: value * (0.99 + 0.02 * seed) for error, value in zip(ERRORS, errors, strict=True)}
         for seed in range(2)
         for iteration, errors in ((0, INITIAL), (iterations, FINAL))
     ]
@@ -55,28 +43,20 @@ def project(tmp_path_factory) -> Callable[[Study, int], Path]:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, folder / name)
         shutil.copytree(ROOT / "workflow" / "templates", folder / "workflow" / "templates")
-        evidence = Evidence(study, folder)
-        results = folder / root_of(study.name)
-        own = Place(study.robot, study.scenario)
-        scenario = folder / own.scenario_file(root_of(study.name))
-        scenario.parent.mkdir(parents=True)
-        damages = [{"link": "forearm_link", "shorten": "1 cm"}]
-        scenario.write_text(json.dumps({"damages": damages}))
+        root, histories = folder / root_of(study.name), []
         for place, learners in places(study).items():
             for learner, lengths in learners.items():
-                path = folder / place.history_file(root_of(study.name), learner)
-                path.parent.mkdir(parents=True, exist_ok=True)
-                pd.concat(map(history, lengths)).to_parquet(path)
-        (results / "assignments").mkdir()
-        pd.DataFrame({"distance": np.linspace(0, 1, 5760)}).to_parquet(
-            results / "assignments" / f"{study.robot}.parquet"
-        )
-        summary(study).to_csv(results / "summary.csv", index=False)
+                histories.append(folder / place.history_file(root_of(study.name), learner))
+                write(histories[-1], pd.concat(map(history, lengths)))
+        own = Place(study.robot, study.scenario).scenario_file(root_of(study.name))
+        write(folder / own, {"damages": [{"link": "forearm_link", "shorten": "1 cm"}]})
+        distances = pd.DataFrame({"distance": np.linspace(0, 1, 5760)})
+        write(root / "assignments" / f"{study.robot}.parquet", distances)
+        write(root / "summary.csv", summarise(study, histories))
         if setups:
-            few = study.campaign.model_copy(update={"setups": setups})
-            table = outcomes(study.model_copy(update={"campaign": few}))
-            table.to_csv(folder / "workflow" / "campaign" / "outcomes.csv", index=False)
-        (results / "claims.json").write_bytes(written(judge(evidence)))
+            table = outcomes(changed(study, campaign={"setups": setups}))
+            write(folder / "workflow" / "campaign" / "outcomes.csv", table)
+        write(root / "claims.json", written(judge(Evidence(study, folder))))
         return folder
 
     return make

@@ -22,26 +22,22 @@ TERM = b"https://bioschemas.org/terms/ComputationalWorkflow"
 @pytest.fixture
 def folder(study, project, monkeypatch) -> Path:
     """A few files of the project, synthetic results, and what Snakemake notes of them."""
-    its = project(study, 5)
-    monkeypatch.chdir(its)
+    root = project(study, 5)
+    monkeypatch.chdir(root)
     for name in FEW:
-        shutil.copy(ROOT / name, its)
+        shutil.copy(ROOT / name, root)
     subprocess.run(["git", "init", "--quiet"], check=True)
     subprocess.run(["git", "add", *FEW], check=True)
     archive.NOTES.mkdir(parents=True)
-    note = {
-        "rule": "claims",
-        "input": ["results/summary.csv"],
-        "starttime": 1e9,
-        "endtime": 1e9 + 5,
-    }
+    times = {"starttime": 1e9, "endtime": 1e9 + 5}
+    note = {"rule": "claims", "input": ["results/summary.csv"]} | times
     name = base64.b64encode(b"results/claims.json").decode()
     (archive.NOTES / name).write_text(json.dumps(note), encoding="utf-8")
-    drawn = its / "results" / "figures"
+    drawn = root / "results" / "figures"
     drawn.mkdir(exist_ok=True)
     for name in ("figure1.svg", "figure8.svg"):  # that of the study, and that of the benchmark
         (drawn / name).write_text("<svg/>", encoding="utf-8")
-    return its
+    return root
 
 
 @pytest.fixture
@@ -51,8 +47,8 @@ def unpacked(folder, tmp_path_factory):
     elsewhere = tmp_path_factory.mktemp("unpacked")
     with zipfile.ZipFile(folder / "archive.zip") as packed:
         packed.extractall(elsewhere)
-    (its,) = elsewhere.iterdir()
-    return its
+    (root,) = elsewhere.iterdir()
+    return root
 
 
 def graph(folder) -> dict[str, dict]:

@@ -1,9 +1,9 @@
-"""Numbers as pages show them."""
+"""Numbers as pages show them, and the reasons of choices."""
 
 import pytest
 
 from replication.judgement import Number
-from replication.pages import formats
+from replication.pages import formats, read_choices
 
 
 @pytest.mark.parametrize(
@@ -17,6 +17,7 @@ def test_a_number_has_three_digits(value, text):
 def test_a_share_is_in_percent():
     assert formats.percent(0.0694) == "6.9 %"
     assert formats.interval((0.06, 0.079), formats.percent) == "6 to 7.9 %"
+    assert formats.ratio(0.1) == "11 %"  # exp(0.1) is 1.105
 
 
 @pytest.mark.parametrize(
@@ -33,5 +34,26 @@ def test_an_estimate_has_its_interval(interval, bound, text):
     assert formats.estimate(number) == text
 
 
-def test_a_deviation_of_logarithms_is_a_percentage_of_the_number():
-    assert formats.ratio(0.1) == "11 %"  # exp(0.1) is 1.105
+TEXT = """
+# of all: no key stands directly below
+
+one: 1  # behind it
+# above it
+# in two lines
+two:
+  # inner
+  three: {a: [1, 2], b: c}  # and behind
+  four: 4
+  five:
+    - x: 5 cm  # of an item
+"""
+
+
+def test_a_reason_stands_above_a_key_or_behind_its_value(tmp_path):
+    path = tmp_path / "config.yaml"
+    path.write_text(TEXT)
+    found = {name: (choice.values[0], choice.reason) for name, choice in read_choices(path).items()}
+    assert found["one"] == ("1", "behind it")
+    assert found["two"][1] == "above it in two lines"
+    assert found["two.three"] == ("{a: [1, 2], b: c}", "inner and behind")
+    assert {*found} == {"one", "two", "two.three"}, "a key without a comment has no reason"

@@ -40,12 +40,12 @@ def outcomes(study: Study) -> pd.DataFrame:
     for setup in range(study.campaign.setups):
         for replicate in range(2 if setup < 3 else 1):
             for name, variant in variants(study).items():
-                its = (*variant.lengths, *variant.until_reached, *variant.at_home)
+                lengths = (*variant.lengths, *variant.until_reached, *variant.at_home)
                 needed = NEEDED.get(name, 200 * WORSE.get(name, 1.0))
                 own = np.exp((setup > 0) * 0.1 * random.normal())
-                for iterations in sorted({*its}):
-                    luck = np.exp(0.01 * random.normal(size=2))
-                    shares = LEFT * own * needed / iterations * luck
+                for iterations in sorted({*lengths}):
+                    noise = np.exp(0.01 * random.normal(size=2))
+                    shares = LEFT * own * needed / iterations * noise
                     cells = {"setup": setup, "replicate": replicate, "variant": name, "settled": 1}
                     named = zip((f"{kind}_share" for kind in KINDS), shares, strict=True)
                     rows.append(cells | {"iterations": iterations} | dict(named))
@@ -58,10 +58,8 @@ def history(iterations: list[int], seeds: int, learner: str) -> pd.DataFrame:
     for seed in range(seeds):
         for iteration in iterations:
             errors = INITIAL * (1 + 0.05 * seed) / (1 + iteration / soon)
-            named = dict(zip(ERRORS, errors, strict=True))
-            rows.append(
-                {"iterations": iterations[-1], "seed": seed, "iteration": iteration} | named
-            )
+            keys = {"iterations": iterations[-1], "seed": seed, "iteration": iteration}
+            rows.append(keys | dict(zip(ERRORS, errors, strict=True)))
     return pd.DataFrame(rows)
 
 
@@ -75,7 +73,7 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
     random = np.random.default_rng(1)
     for place, learners in places(study).items():
         for learner, lengths in learners.items():
-            its = [
+            histories = [
                 history(
                     study.training.during(length)
                     if throughout(study, place, learner, length)
@@ -85,7 +83,7 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
                 )
                 for length in lengths
             ]
-            yield place.history_file(RESULTS, learner), pd.concat(its)
+            yield place.history_file(RESULTS, learner), pd.concat(histories)
     yield f"{CAMPAIGN}/outcomes.csv", outcomes(study)
     own = random.uniform(0.02, 0.2, (study.campaign.setups, 2))
     untrained = pd.DataFrame(own, columns=KINDS).assign(**dict(zip(ERRORS, INITIAL, strict=True)))
@@ -164,18 +162,12 @@ def project(small, tmp_path_factory) -> Callable[..., Path]:
     def make(change: Callable[[pd.DataFrame], pd.DataFrame] = lambda table: table) -> Path:
         folder = tmp_path_factory.mktemp("project")
         for path, table in tables(small):
-            write_in(folder / path, change(table))
+            write(folder / path, change(table))
         shutil.copy(ROOT / DESIGN, folder / DESIGN)
-        found = judge(Evidence(small, folder))
-        (folder / RESULTS / "claims.json").write_bytes(written(found))
+        write(folder / RESULTS / "claims.json", written(judge(Evidence(small, folder))))
         return folder
 
     return make
-
-
-def write_in(path: Path, table: pd.DataFrame) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write(path, table)
 
 
 @pytest.fixture(scope="session")
@@ -188,8 +180,8 @@ def figures(evidence):
     """All, drawn and laid out."""
     found = {}
     with plt.rc_context(STYLE):
-        for its in Figure:
-            found[its] = drawn(its, evidence)
-            found[its].draw_without_rendering()
+        for figure in Figure:
+            found[figure] = drawn(figure, evidence)
+            found[figure].draw_without_rendering()
     yield found
     plt.close("all")

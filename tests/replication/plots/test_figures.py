@@ -23,12 +23,12 @@ from replication.plots import (
     styles_of_trainings,
 )
 from replication.training import leading
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import NEEDED, disturbed
 
 
 def files(folder):
-    return [folder / f"{its.file}.{suffix}" for its in Figure for suffix in ("svg", "png")]
+    return [folder / f"{figure.file}.{suffix}" for figure in Figure for suffix in ("svg", "png")]
 
 
 @pytest.mark.slow  # all figures are drawn twice, to SVG and PNG
@@ -52,8 +52,8 @@ def test_the_committed_pictures_of_ideas_are_those_that_their_code_draws(tmp_pat
         assert path.read_bytes() == (ROOT / "figures" / path.name).read_bytes(), path.name
 
 
-def line(axes, label):
-    (found,) = [its for its in axes.lines if its.get_label() == label]
+def curve(axes, label):
+    (found,) = [line for line in axes.lines if line.get_label() == label]
     return found.get_data()
 
 
@@ -61,33 +61,27 @@ def test_figure_1_shows_the_means_of_the_seeds(figures, evidence):
     history = evidence.history(*leading(evidence.study))
     for axes in figures[Figure.FIGURE_1].axes:
         for error in BOTH:
-            iterations, errors = line(axes, error.kind)
+            iterations, errors = curve(axes, error.kind)
             means = history.groupby("iteration")[error.column].mean()
             assert iterations[-1] == 200 and np.allclose(errors, means)
-
-
-def test_learners_are_named_with_their_iterations(figures, evidence):
     (legend,) = figures[Figure.LEARNERS].legends
     labels = [text.get_text() for text in legend.get_texts()]
-    assert labels == [
-        "improved, 200 iterations",
-        "Ritter, 200 iterations",
-        "Ritter, 10,000 iterations",
-    ]
-    _, errors = line(figures[Figure.LEARNERS].axes[0], labels[0])
+    trained = "improved, 200", "Ritter, 200", "Ritter, 10,000"
+    assert labels == [f"{name} iterations" for name in trained]
+    _, errors = curve(figures[Figure.LEARNERS].axes[0], labels[0])
     assert errors[-1] == pytest.approx(evidence.errors(IMPROVED, 200)[:, 0].mean())
 
 
 def right_of(axes):
     """The words to the right of rows."""
-    (beside,) = axes.child_axes
-    return [label.get_text() for label in beside.get_yticklabels()]
+    (right,) = axes.child_axes
+    return [label.get_text() for label in right.get_yticklabels()]
 
 
 def test_steps_say_how_many_iterations_were_planted(figures):
     _, below = figures[Figure.STEPS].axes
     shown = [float(text.split()[0].replace(",", "")) for text in right_of(below)]
-    assert shown[:-1] == pytest.approx([*NEEDED.values()], rel=0.05), "two digits, 1 % of luck"
+    assert shown[:-1] == pytest.approx([*NEEDED.values()], rel=0.05), "two digits, noise of 1 %"
     assert right_of(below)[-2] == "200 (1×)"
     assert shown[-1] == pytest.approx(NEEDED[DOUBLE], rel=0.15), "a mean over setups"
 
@@ -105,7 +99,7 @@ def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project, tmp_pat
     plt.close(figure)
 
 
-def test_contrasts_show_every_setup_and_what_was_found(figures, evidence):
+def test_contrasts_show_every_setup_and_what_was_found(figures, evidence, small):
     shown, found = rows(evidence), evidence.findings()
     assert {row.claim.statement.id for row in shown} == {*LABELS}
     words = [text for axes in figures[Figure.CONTRASTS].axes for text in right_of(axes)]
@@ -114,18 +108,19 @@ def test_contrasts_show_every_setup_and_what_was_found(figures, evidence):
     assert theta.estimates[0].value == pytest.approx(1 / 2.5, rel=0.1), "as planted"
     dots = np.concatenate(
         [
-            its.get_offsets()[:, 0]
-            for its in figures[Figure.CONTRASTS].axes[0].collections
-            if len(its.get_offsets()) == evidence.study.campaign.setups
+            collection.get_offsets()[:, 0]
+            for collection in figures[Figure.CONTRASTS].axes[0].collections
+            if len(collection.get_offsets()) == evidence.study.campaign.setups
         ]
     )
     ratios = [row.numbers for row in shown if not row.is_share]
     assert np.allclose(np.sort(dots), np.sort(np.concatenate(ratios)))
-
-
-def test_every_claim_that_setups_decide_by_errors_is_shown(small):
-    estimands = {its.statement.id: getattr(its, "estimand", None) for its in claims(small)}
-    by_errors = {name for name, its in estimands.items() if its and not isinstance(its, Crossing)}
+    estimands = {claim.statement.id: getattr(claim, "estimand", None) for claim in claims(small)}
+    by_errors = {
+        name
+        for name, estimand in estimands.items()
+        if estimand and not isinstance(estimand, Crossing)
+    }
     assert by_errors == {*LABELS}
     assert isinstance(estimands["figure-1"], Remaining)
 
@@ -137,32 +132,28 @@ def test_the_benchmark_shows_two_scenarios(figures, evidence):
         "gears and sag as well",
     ]
     own = table.query("scenario == 'links_encoders' and learner == 'improved'")
-    moves, errors = line(figure.axes[0], "improved")
+    moves, errors = curve(figure.axes[0], "improved")
     assert np.allclose(moves, own["moves"]) and np.allclose(errors, own["position_error_cm"])
-
-
-def test_the_real_arm_shows_no_line_where_nothing_was_measured(figures, evidence):
     (axes,) = figures[Figure.REAL_ARM].axes
     table = evidence.table("real.csv").query("learner == 'improved'")
-    poses, errors = line(axes, "improved on a twin")
+    poses, errors = curve(axes, "improved on a twin")
     assert poses.tolist() == [5, 50], "a thousand are far away"
     assert errors[0] == pytest.approx(table["position_error_mm"].iloc[0])
 
 
 def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_path, monkeypatch):
-    every = [its.file for its in Figure if its not in APART]
+    every = [figure.file for figure in Figure if figure not in APART]
     monkeypatch.chdir(project())
     assert figures_of(small) == every and every[0] == "figure1"
     campaign = {Figure.STEPS.file, Figure.CONTRASTS.file}
-    untold = [name for name in every if name not in campaign]
-    other = small.model_copy(update={"name": "other"})
-    assert figures_of(other) == untold
+    without_campaign = [name for name in every if name not in campaign]
+    other = changed(small, name="other")
+    assert figures_of(other) == without_campaign
     monkeypatch.chdir(tmp_path)
-    assert figures_of(small) == untold, "no setup is measured"
-    plan = small.experiments.model_copy(update={"evidence": False})
-    quick = other.model_copy(update={"experiments": plan})
+    assert figures_of(small) == without_campaign, "no setup is measured"
+    quick = changed(other, experiments={"evidence": False})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
-    assert figures_of(quick) == [its.file for its in trained]
+    assert figures_of(quick) == [figure.file for figure in trained]
 
 
 def test_every_learner_looks_like_itself_and_unlike_the_others(small):

@@ -14,7 +14,7 @@ from matplotlib.text import Text
 
 from replication.plots import BOTH, FAILS, HOLDS, SHORTER, STEPS, STYLES, UNKNOWN, Figure
 from tests.replication.recording import test_colours
-from tests.replication.recording.test_colours import SEEN, apart, lab, linear
+from tests.replication.recording.test_colours import VISION, apart, lab, linear
 
 PHONE, LEAST = 360, 9  # pixels: as wide as a phone; the height of letters
 ARTICLE, SMALLEST = 15 / 2.54, 7  # inches wide; points
@@ -38,19 +38,15 @@ def texts(figure) -> list[Text]:
 
 
 @EVERY
-def test_letters_are_large_enough_on_a_phone_and_in_the_article(figures, name):
+def test_words_are_large_enough_and_stand_on_no_others(figures, name):
     figure = figures[name]
     small = min(text.get_fontsize() for text in texts(figure))
     assert small * PHONE / (72 * figure.get_figwidth()) >= LEAST
     assert small * ARTICLE / figure.get_figwidth() >= SMALLEST
-
-
-@EVERY
-def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
     figure = figures[name]
     boxes = [(text.get_text(), text.get_window_extent()) for text in texts(figure)]
-    for (one, its), (other, another) in combinations(boxes, 2):
-        assert not its.padded(-2).overlaps(another.padded(-2)), (one, other)
+    for (one, box), (other, other_box) in combinations(boxes, 2):
+        assert not box.padded(-2).overlaps(other_box.padded(-2)), (one, other)
     for text, box in boxes:
         inside = box.x0 >= -1 and box.x1 <= figure.bbox.x1 + 1 and box.y0 >= -1
         assert inside and box.y1 <= figure.bbox.y1 + 1, text
@@ -77,14 +73,13 @@ def colours(figures) -> dict[Figure, set[str]]:
     return found
 
 
-@pytest.mark.parametrize("seen", SEEN)
-def test_colours_of_a_figure_differ_to_everyone(colours, seen):
+@pytest.mark.parametrize("vision", VISION)
+def test_colours_of_a_figure_differ_to_everyone(colours, vision):
     """As much as those of recordings."""
     meant = {color.lower() for color in MEANT if color.startswith("#")}
     assert all(used & meant for used in colours.values())
     for name, used in colours.items():
-        shades = {
-            color: lab(SEEN[seen] @ linear(255 * np.array(to_rgb(color)))) for color in used & meant
-        }
+        meant_here = {color: linear(255 * np.array(to_rgb(color))) for color in used & meant}
+        shades = {color: lab(VISION[vision] @ rgb) for color, rgb in meant_here.items()}
         shades["paper"] = lab(np.ones(3))
         assert apart(shades) >= test_colours.LEAST, name

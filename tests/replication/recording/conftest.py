@@ -13,6 +13,8 @@ from replication.config import Study
 from replication.recording import CLOCK, record, recorded_places
 from replication.scenarios import Resolved, resolve
 from replication.training.train import train
+from tests.conftest import changed
+from tests.replication.conftest import ALONE
 
 OWN, INTACT = "links_encoders", "intact"
 LEARNERS = "improved", "ritter"
@@ -40,14 +42,10 @@ class Files(NamedTuple):
 @pytest.fixture(scope="session")
 def small(study) -> Study:
     """The shipped study with two short trainings and damages of every kind."""
-    plan = {"scenarios": (OWN, INTACT), "robots": (), "own": {}, "switches": False}
-    plan["learners"] = dict.fromkeys(LEARNERS, (ITERATIONS,))
-    changes = {
-        "experiments": study.experiments.model_copy(update=plan),
-        "scenarios": study.scenarios | {OWN: DAMAGES},
-        "training": study.training.model_copy(update={"seeds": 3, "tests": TESTS}),
-    }
-    return study.model_copy(update=changes)
+    learners = dict.fromkeys(LEARNERS, (ITERATIONS,))
+    plan = {"scenarios": (OWN, INTACT), "learners": learners} | ALONE
+    scenarios, training = study.scenarios | {OWN: DAMAGES}, {"seeds": 3, "tests": TESTS}
+    return changed(study, experiments=plan, scenarios=scenarios, training=training)
 
 
 def trained(study: Study, root: Path) -> Files:
@@ -56,8 +54,8 @@ def trained(study: Study, root: Path) -> Files:
     rows = [
         {"setup": 0, "replicate": 0, "variant": name, "iterations": ITERATIONS}
         | {
-            f"{part}_{net}": its[n]
-            for part, its in WIDTHS.items()
+            f"{part}_{net}": widths[n]
+            for part, widths in WIDTHS.items()
             for n, net in ((0, "g_k"), (1, "g_kl"))
         }
         | {"initial_width": 3.8, "initial_rate": 0.8, "final_rate": 0.4}
@@ -85,9 +83,9 @@ def trained(study: Study, root: Path) -> Files:
 @pytest.fixture(scope="session")
 def files(small, tmp_path_factory) -> Files:
     """Those of the small study, with its recordings."""
-    its = trained(small, tmp_path_factory.mktemp("results"))
-    record(small, *its)
-    return its
+    written = trained(small, tmp_path_factory.mktemp("results"))
+    record(small, *written)
+    return written
 
 
 @pytest.fixture(scope="session")

@@ -10,7 +10,7 @@ from replication.recording import colours
 from tests.conftest import ROOT
 
 # of linear RGB, at full severity: Machado, Oliveira and Fernandes, 2009
-SEEN = {
+VISION = {
     "all colours": np.eye(3),
     "protanopia": [
         [0.152286, 1.052583, -0.204868],
@@ -57,22 +57,22 @@ def apart(shades: dict[str, np.ndarray]) -> float:
     return min(np.linalg.norm(one - other) for one, other in combinations(shades.values(), 2))
 
 
-@pytest.mark.parametrize("seen", SEEN)
-def test_colours_that_mean_different_things_differ(seen):
-    named = {name: its for name, its in vars(colours).items() if name.isupper()}
+@pytest.mark.parametrize("vision", VISION)
+def test_colours_that_mean_different_things_differ(vision):
+    named = {name: colour for name, colour in vars(colours).items() if name.isupper()}
     assert len(named) == 6
-    shades = {name: lab(SEEN[seen] @ linear(colour)) for name, colour in named.items()}
+    shades = {name: lab(VISION[vision] @ linear(colour)) for name, colour in named.items()}
     assert apart(shades) >= LEAST
 
 
 @pytest.mark.parametrize("scheme", PAPER)
-@pytest.mark.parametrize("seen", SEEN)
-def test_so_do_those_of_the_site_where_one_can_try_it(seen, scheme):
+@pytest.mark.parametrize("vision", VISION)
+def test_so_do_those_of_the_site_where_one_can_try_it(vision, scheme):
     found = re.findall(r"--(\w+): (#\w{6});", SITE.read_text(encoding="utf-8"))
     assert len(found) == 10, "five by day, five by night"
     half = found[:5] if scheme == "light" else found[5:]
     shades = {
-        name: lab(SEEN[seen] @ linear(list(bytes.fromhex(text[1:]))))
+        name: lab(VISION[vision] @ linear(list(bytes.fromhex(text[1:]))))
         for name, text in [*half, ("paper", PAPER[scheme])]
     }
     assert apart(shades) >= LEAST

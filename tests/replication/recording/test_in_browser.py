@@ -57,35 +57,36 @@ def content(path: Path) -> SimpleNamespace:
     return SimpleNamespace(**json.loads(text.partition("STUDY = ")[2].rstrip(";\n")))
 
 
-def in_node(written: Path, asked: str):
+def in_node(written: Path, expression: str):
     """The value of an expression, with the study and all scripts but the page's there."""
-    ran = subprocess.run(
-        ["node", "-e", NODE, "--", asked, str(written), *SCRIPTS],
+    process = subprocess.run(
+        ["node", "-e", NODE, "--", expression, str(written), *SCRIPTS],
         cwd=ROOT,
         text=True,
         capture_output=True,
         check=True,
     )
-    return json.loads(ran.stdout)
+    return json.loads(process.stdout)
 
 
 def damaged(robot, damage):
-    short = [LinkShortening(*its) for its in zip(LINKS, damage, strict=False)]
+    short = [LinkShortening(*shortening) for shortening in zip(LINKS, damage, strict=False)]
     return apply(robot, [*short, *map(EncoderShift, robot.joints, damage[4:])])
 
 
 @needs_node
 def test_the_kinematics_are_those_of_the_library(robot, controller, written):
     plant = damaged(robot, LARGEST)
-    asked = f"""(() => {{
+    expression = f"""(() => {{
       const {{ controller, tests }} = new Experiment(STUDY);
-      const its = new Plant(controller, STUDY.robot.links, {LARGEST}), {{ workspace }} = controller;
+      const plant = new Plant(controller, STUDY.robot.links, {LARGEST});
+      const {{ workspace }} = controller;
       return tests.map(({{ u, angles, pose }}) => ({{
-        angles, pose, achieved: [...its.achieve(angles)],
-        coordinates: workspace.toCoordinates(its.achieve(angles)),
-        errors: errors(its.achieve(angles), pose) }}));
+        angles, pose, achieved: [...plant.achieve(angles)],
+        coordinates: workspace.toCoordinates(plant.achieve(angles)),
+        errors: errors(plant.achieve(angles), pose) }}));
     }})()"""
-    found = pd.DataFrame(in_node(written, asked))
+    found = pd.DataFrame(in_node(written, expression))
     tests = np.array(content(written).tests)
     desired, angles = robot.workspace.to_poses(tests), controller.targets(tests[None]).angles[0]
     achieved = plant.forward(angles)
@@ -111,12 +112,14 @@ def narrow(robot, controller) -> Controller:
 def test_every_measurement_of_a_training_is_that_of_the_library(name, request):
     controller = request.getfixturevalue("narrow" if name == "beyond limits" else "controller")
     robot, limits = controller.robot, ("lower", "upper")
-    bounds = json.dumps({its: getattr(robot, its).tolist() for its in limits})
-    asked = f"Object.assign(STUDY.robot, {bounds}) && [...new Experiment(STUDY).train({LARGEST})]"
-    found = pd.DataFrame(in_node(STUDY, asked))
-    plant, its = Plant(controller, damaged(robot, LARGEST)), content(STUDY)
-    learner = HierarchicalLearner(IMPROVED, Schedule(**its.schedule))
-    poses, measure_at = map(np.array, (its.desired, its.tests)), range(0, 201, 4)
+    bounds = json.dumps({limit: getattr(robot, limit).tolist() for limit in limits})
+    expression = (
+        f"Object.assign(STUDY.robot, {bounds}) && [...new Experiment(STUDY).train({LARGEST})]"
+    )
+    found = pd.DataFrame(in_node(STUDY, expression))
+    plant, training = Plant(controller, damaged(robot, LARGEST)), content(STUDY)
+    learner = HierarchicalLearner(IMPROVED, Schedule(**training.schedule))
+    poses, measure_at = map(np.array, (training.desired, training.tests)), range(0, 201, 4)
     history = train(plant, learner, *poses, measure_at)
     assert len(found) == len(measure_at) == 51
     assert (history.refused[-1] > 0) == (name == "beyond limits")
@@ -127,30 +130,33 @@ def test_every_measurement_of_a_training_is_that_of_the_library(name, request):
 @needs_node
 def test_an_identification_finds_the_damage_and_leaves_nothing(written):
     damages = LARGEST, [0.0] * 10, [0.01, 0.0, 0.02, 0.04, 0.0, -0.07, 0.0, 0.03, 0.0, 0.05]
-    its = "new Experiment(STUDY)"
-    asked = (f"[{its}.identify({damage}), {its}.identified({damage})]" for damage in damages)
-    found = in_node(written, f"[{', '.join(asked)}]")
-    for damage, (identified, left) in zip(damages, found, strict=True):
+    experiment = "new Experiment(STUDY)"
+    expressions = (
+        f"[{experiment}.identify({damage}), {experiment}.identified({damage})]"
+        for damage in damages
+    )
+    found = in_node(written, f"[{', '.join(expressions)}]")
+    for damage, (identified, residuals) in zip(damages, found, strict=True):
         close(identified, damage)
-        close([left["position"], left["orientation"]], 0)
+        close([residuals["position"], residuals["orientation"]], 0)
 
 
-def test_what_is_written_is_the_recorded_training(small, files, tmp_path):
+def test_what_is_written_is_the_recorded_training_and_what_is_shipped_the_studys(
+    small, files, tmp_path, study, robot
+):
     entries = LinkShortening("wrist_1_link", 0.01), EncoderShift("elbow_joint", 0.02)
     resolved = Resolved.read(files.scenarios[0]).model_copy(update={"damages": entries})
     (tmp_path / "scenario.json").write_text(resolved.model_dump_json())
     text = script(small, tmp_path / "scenario.json", files.settings, files.histories[0])
     (tmp_path / "study.js").write_text(text)
-    its = content(tmp_path / "study.js")
-    close(its.damage, [0, 0, 0.01, 0, 0, 0, 0.02, 0, 0, 0])
-    assert its.iterations == ITERATIONS and its.schedule["initial_width"] == 3.8
-    assert its.schedule["final_widths"]["position"] == [*WIDTHS["position"]]
+    training = content(tmp_path / "study.js")
+    close(training.damage, [0, 0, 0.01, 0, 0, 0, 0.02, 0, 0, 0])
+    assert training.iterations == ITERATIONS and training.schedule["initial_width"] == 3.8
+    assert training.schedule["final_widths"]["position"] == [*WIDTHS["position"]]
     seed = typical_seed(pd.read_parquet(files.histories[0]))
     poses = Stream.SCENARIO.draw(small.seed, [seed], ITERATIONS, TESTS, scenario=OWN)
-    assert its.desired == poses.desired[0].tolist() and its.tests == poses.tests[0].tolist()
-
-
-def test_what_is_shipped_is_of_the_study(study, robot):
+    assert training.desired == poses.desired[0].tolist()
+    assert training.tests == poses.tests[0].tolist()
     shipped, seeds = content(STUDY), range(study.training.seeds)
     poses = Stream.SCENARIO.draw(study.seed, seeds, 200, 200, scenario=study.scenario)
     assert shipped.desired in poses.desired.tolist() and shipped.tests in poses.tests.tolist()

@@ -9,10 +9,10 @@ from replication.training import leading
 def test_every_scenario_is_recorded_with_the_training_of_figure_1(study):
     learners = {"ritter_double": (500,), "improved": (200, 500), "ritter": (200,)}
     plan = study.experiments.model_copy(update={"learners": learners})
-    its = study.model_copy(update={"experiments": plan})
-    assert leading(its) == ("improved", 200, "links_encoders")
-    assert [place.scenario for place in recorded_places(its)] == [*plan.scenarios]
-    assert {place.robot for place in recorded_places(its)} == {study.robot}
+    planned = study.model_copy(update={"experiments": plan})
+    assert leading(planned) == ("improved", 200, "links_encoders")
+    assert [place.scenario for place in recorded_places(planned)] == [*plan.scenarios]
+    assert {place.robot for place in recorded_places(planned)} == {study.robot}
 
 
 def test_the_typical_training_ends_with_the_median_error():

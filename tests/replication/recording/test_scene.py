@@ -162,10 +162,8 @@ def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot):
     random = np.random.default_rng(1)
     angles = robot.home + random.uniform(-0.4, 0.4, (3, POSES, 6))
     motion = move(angles, np.array([0, 4, 8]), robot.home)
-    for moved, stops in (
-        (motion.angles[:VISITS], angles[0]),
-        (motion.angles[-VISITS:], angles[-1]),
-    ):
+    first, last = motion.angles[:VISITS], motion.angles[-VISITS:]
+    for moved, stops in ((first, angles[0]), (last, angles[-1])):
         a_second = FRAMES_A_SECOND * np.abs(np.diff(moved, axis=0))
         assert a_second.max() < 2 * np.pi, "never more than one turn a second"
         assert np.allclose(moved.reshape(len(stops), -1, 6)[:, -1], stops)

@@ -9,12 +9,13 @@ import rerun as rr
 from recalib import InvalidFile, LinkShortening
 from replication.recording import check_end, record, typical_seed
 from replication.recording.viewer import PROGRAM, quiet
+from tests.conftest import changed
 from tests.replication.recording.conftest import DAMAGES, OWN, trained
 
 
 def rrd(*command) -> bool:
-    ran = subprocess.run([PROGRAM, "rrd", *command], env=quiet(), capture_output=True)
-    return ran.returncode == 0
+    process = subprocess.run([PROGRAM, "rrd", *command], env=quiet(), capture_output=True)
+    return process.returncode == 0
 
 
 def test_every_recording_is_valid_and_small(files):
@@ -34,15 +35,13 @@ def test_a_recording_that_ends_too_early_is_refused(recording, tmp_path, share):
 
 def test_two_recordings_of_the_same_are_equal_and_a_millimetre_shows(small, files, tmp_path):
     longer = [*DAMAGES[:1], LinkShortening("forearm_link", 0.041), *DAMAGES[2:]]
-    plan = small.experiments.model_copy(update={"scenarios": (OWN,)})
     for damages, same in ((DAMAGES, True), (longer, False)):
-        study = small.model_copy(
-            update={"experiments": plan, "scenarios": small.scenarios | {OWN: damages}}
-        )
+        scenarios = small.scenarios | {OWN: damages}
+        study = changed(small, experiments={"scenarios": (OWN,)}, scenarios=scenarios)
         (tmp_path / str(same)).mkdir()
-        its = trained(study, tmp_path / str(same))
-        record(study, *its)
-        assert rrd("compare", "--unordered", files.recordings[0], its.recordings[0]) == same
+        other = trained(study, tmp_path / str(same))
+        record(study, *other)
+        assert rrd("compare", "--unordered", files.recordings[0], other.recordings[0]) == same
 
 
 def test_a_recording_that_differs_from_the_history_is_not_written(small, files, tmp_path):

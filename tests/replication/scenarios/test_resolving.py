@@ -1,35 +1,42 @@
-"""Scenarios as resolved: a file of each says all that its robots are made of."""
+"""Scenarios as resolved, and the assignments of the paper's damage."""
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib import EncoderShift, LinkShortening, Noise, Outliers, Repeatability
+from recalib import (
+    EncoderShift,
+    LinkShortening,
+    Noise,
+    Outliers,
+    Repeatability,
+    apply,
+    orientation_error,
+    position_error,
+)
+from recalib.numerics import generator
+from replication.config import PaperDamage, Published
 from replication.judgement import Evidence, NotMeasured
 from replication.running import write
-from replication.scenarios import Resolved, resolve
+from replication.scenarios import Resolved, Ways, assign, compare, resolve
 from replication.training import places, write_scenarios
+from tests.conftest import changed
 
 
 @pytest.fixture(scope="module")
 def few(study):
-    plan = study.experiments.model_copy(
-        update={"scenarios": ("intact", "links", "encoders", "links_encoders"), "robots": ("z1",)}
-    )
-    damage = study.paper_damage.model_copy(
-        update={"shorten": (0.04,), "shift": (0.07,), "poses": 10}
-    )
-    return study.model_copy(update={"experiments": plan, "paper_damage": damage, "name": "few"})
+    scenarios = "intact", "links", "encoders", "links_encoders"
+    plan = {"scenarios": scenarios, "robots": ("z1",)}
+    damage = {"shorten": (0.04,), "shift": (0.07,), "poses": 10}
+    return changed(study, experiments=plan, paper_damage=damage, name="few")
 
 
 @pytest.fixture(scope="module")
 def written(few, tmp_path_factory):
     folder = tmp_path_factory.mktemp("scenarios")
     files = {place: folder / place.scenario_file("results/studies/few") for place in places(few)}
-    write(
-        folder / "results/studies/few/assignments/ur10.parquet",
-        write_scenarios(few, [*files.values()]),
-    )
+    table = write_scenarios(few, [*files.values()])
+    write(folder / "results/studies/few/assignments/ur10.parquet", table)
     return folder, files
 
 
@@ -38,7 +45,7 @@ def test_each_place_has_its_damages_by_one_assignment(few, written):
     links, encoders, both, other = (
         Resolved.read(path) for place, path in files.items() if place.scenario != "intact"
     )
-    assert [type(its) for its in both.damages] == [LinkShortening, EncoderShift]
+    assert [type(damage) for damage in both.damages] == [LinkShortening, EncoderShift]
     assert both.damages == links.damages + encoders.damages
     assert (other.robot, other.scenario) == ("z1", "links_encoders")
     assert other.damages[0].link.startswith("link0"), "links of its own"
@@ -71,7 +78,7 @@ def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(study, pla
     commands = np.zeros((1, 4, 6))
 
     def met(name, seed, runs):
-        resolved = plan.resolved("intact").model_copy(update={"scenario": name, "damages": noisy})
+        resolved = changed(plan.resolved("intact"), scenario=name, damages=noisy)
         plant = resolved.plant(resolved.controller(), seed, runs)
         return plant.execute(np.repeat(commands, len(runs), axis=0)).achieved
 
@@ -79,3 +86,59 @@ def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(study, pla
     assert np.array_equal(both[1:], met("noise", 1, [4]))
     for other in (both[:1], met("outliers", 1, [4]), met("noise", 2, [4])):
         assert not np.isclose(both[1:], other).any()
+
+
+LINKS = ["upper_arm_link", "forearm_link", "wrist_1_link", "wrist_2_link"]
+
+
+def test_the_paper_allows_5760_different_assignments(robot):
+    ways = Ways(LINKS, [0.01, 0.01, 0.04], robot.joints, np.radians([4, 3, 4]))
+    assert (len(ways.short), len(ways.shifted), len(ways)) == (12, 480, 5760)
+    assert len({ways[index] for index in range(len(ways))}) == 5760
+    ways = Ways(LINKS, [0.01, 0.04], robot.joints, [0.05, 0.06])
+    for index in range(0, len(ways), 37):
+        links, joints = ways[index][:2], ways[index][2:]
+        assert LINKS.index(links[0].link) < LINKS.index(links[1].link)
+        assert robot.joints.index(joints[0].encoder) < robot.joints.index(joints[1].encoder)
+
+
+@pytest.fixture(scope="module")
+def assigned(plan):
+    published = Published(position_error_cm=5.0, orientation_error_deg=3.0)
+    amounts = {"shorten": (0.01, 0.04), "shift": (0.05,), "poses": 10}
+    damage = PaperDamage.model_construct(published=published, **amounts)
+    return damage, *assign(plan.nominal("ur10"), damage, seed=1)
+
+
+def test_every_row_has_the_errors_of_its_damages(assigned, controller):
+    damage, table, _ = assigned
+    robot = controller.robot
+    ways = Ways(LINKS, damage.shorten, robot.joints, damage.shift)
+    assert len(table["distance"]) == len(ways) == 12 * 12
+    poses = robot.workspace.sample(generator(1, "assignments"), 10)
+    desired = robot.workspace.to_poses(poses)
+    for index in range(0, len(ways), 29):
+        achieved = apply(robot, ways[index]).forward(controller.inverse(desired))
+        position = 100 * position_error(achieved, desired).mean()
+        orientation = np.degrees(orientation_error(achieved, desired).mean())
+        assert table["position_error_cm"][index] == pytest.approx(position)
+        assert table["orientation_error_deg"][index] == pytest.approx(orientation)
+    damage, table, assignment = assigned
+    ways = Ways(LINKS, damage.shorten, controller.robot.joints, damage.shift)
+    assert assignment == ways[table["distance"].round(9).argmin()]
+
+
+def test_the_distance_is_the_larger_relative_deviation(assigned, controller):
+    damage, table, _ = assigned
+    robot = controller.robot
+    ways = Ways(LINKS, damage.shorten, robot.joints, damage.shift)
+    poses = robot.workspace.sample(generator(1, "assignments"), 10)
+    position, orientation, _ = (column[3] for column in table.values())
+    exact = Published(position_error_cm=position, orientation_error_deg=orientation)
+    off = Published(position_error_cm=position / 1.5, orientation_error_deg=orientation)
+    small = Published(position_error_cm=position / 0.7, orientation_error_deg=orientation)
+    found, nearest = compare(controller, ways, poses, exact)
+    assert (found["distance"][3], nearest) == (0, 3)
+    assert compare(controller, ways, poses, off)[0]["distance"][3] == pytest.approx(0.5)
+    scaled, nearest = compare(controller, ways, poses, small, scale=0.7)
+    assert scaled["distance"][3] == pytest.approx(0) and nearest == 3

@@ -12,31 +12,25 @@ from replication.judgement import check, expect, summarise
 from replication.running import write
 from replication.scenarios import resolve
 from replication.training.train import train
-from tests.replication.conftest import settings_of
+from tests.conftest import changed
+from tests.replication.conftest import ALONE, settings_of
 
 
 @pytest.fixture(scope="module")
 def errors(study, tmp_path_factory):
     """Trains both learners on the paper's damage, with a seed; gives the summary's table."""
     folder = tmp_path_factory.mktemp("planted")
-    plan = study.experiments.model_copy(
-        update={
-            "scenarios": ("links_encoders",),
-            "learners": {"improved": (200,), "ritter": (200,)},
-            "robots": (),
-            "own": {},
-            "switches": False,
-        }
-    )
-    one = study.model_copy(update={"experiments": plan})
+    learners = {"improved": (200,), "ritter": (200,)}
+    plan = {"scenarios": ("links_encoders",), "learners": learners} | ALONE
+    one = changed(study, experiments=plan)
     resolved, settings = folder / "resolved.json", settings_of(study, folder / "outcomes.csv")
     write(resolved, resolve(study, study.robot, ["links_encoders"])[0][0])
-    files = [[folder / f"{name}.{kind}" for name in plan.learners] for kind in ("parquet", "npz")]
+    files = [[folder / f"{name}.{kind}" for name in learners] for kind in ("parquet", "npz")]
 
     def trained(seed: int = study.seed) -> pd.DataFrame:
-        its = one.model_copy(update={"seed": seed})
-        train(its, study.robot, "links_encoders", resolved, settings, *files)
-        return summarise(its, files[0])
+        seeded = changed(one, seed=seed)
+        train(seeded, study.robot, "links_encoders", resolved, settings, *files)
+        return summarise(seeded, files[0])
 
     return trained
 

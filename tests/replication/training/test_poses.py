@@ -23,6 +23,7 @@ from replication.training import (
     write_scenarios,
 )
 from replication.training import poses as module
+from tests.conftest import changed
 from tests.replication.conftest import settings_of
 
 WORDS = {"number": 1, "setup": 0, "replicate": 0, "widths": "wide"}
@@ -36,17 +37,16 @@ def for_results():
     return Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario="links")
 
 
-def test_a_search_takes_no_poses_of_results(study):
+def test_a_search_takes_no_poses_of_results_nor_results_those_of_a_search(study):
     class Its:
         poses = for_results()
 
     with pytest.raises(TypeError, match="SearchPoses expected, ResultPoses found: links"):
         Tuning([Its()], Its(), study.search)
-
-
-def test_results_take_no_poses_of_a_search():
     with pytest.raises(TypeError, match="ResultPoses expected, SearchPoses found: search 1 in"):
         train_for_results(None, None, for_a_search(), [4])
+    with pytest.raises(ValueError, match="SCENARIO: 'search 1 in setup 0, replicate 0' is the"):
+        Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario=for_a_search().name)
 
 
 @pytest.mark.parametrize("kind", [SearchPoses, ResultPoses])
@@ -62,11 +62,6 @@ def test_a_stream_is_of_a_search_or_of_results_by_its_name(stream):
     drawn = stream.draw(1, [0], 4, 3, scenario="links", **WORDS)
     assert isinstance(drawn, SearchPoses) == drawn.name.startswith("search ")
     assert isinstance(drawn, ResultPoses) != isinstance(drawn, SearchPoses)
-
-
-def test_results_cannot_take_the_name_of_a_search():
-    with pytest.raises(ValueError, match="SCENARIO: 'search 1 in setup 0, replicate 0' is the"):
-        Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario=for_a_search().name)
 
 
 @pytest.fixture(scope="module")
@@ -93,9 +88,7 @@ def few(study):
         "paper_damage": {"shorten": (0.04,), "shift": (0.07,), "poses": 5},
     }
     rest |= {"experiments": experiments}
-    return study.model_copy(
-        update={name: getattr(study, name).model_copy(update=its) for name, its in rest.items()}
-    )
+    return changed(study, **rest)
 
 
 class Drawn:
@@ -135,19 +128,19 @@ def all_jobs(study, folder, monkeypatch):
     write_scenarios(study, [*files.values()])
     own = files[Place(study.robot, study.scenario)]
     for place, learners in places(study).items():
-        its = [
+        outputs = [
             [folder / f"{place.scenario}.{name}{ending}" for name in learners]
             for ending in (".parquet", ".npz")
         ]
-        train.train(study, *place, files[place], settings, *its)
+        train.train(study, *place, files[place], settings, *outputs)
     for learner in ("improved", "ritter"):
         tune(study, learner, own)
     ensemble.train_ensemble(study, settings)
     for learner in ("affine", "improved"):
         benchmark.compete(study, learner, settings)
     measured.learn(study, own, settings)
-    said = type("Said", (), {"target": np.eye(4)})
-    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
+    description = type("Description", (), {"target": np.eye(4)})
+    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: description)
     for name in ("read_of", "identified", "Plant"):
         monkeypatch.setattr(real_arm, name, lambda *_: None)
     real_arm.learn(study, "improved", *[folder] * 3, settings)
@@ -166,7 +159,7 @@ def test_no_test_pose_of_any_job_was_learned_from_or_searched_with(
     assert drawn.seeds == {few.seed}, "and from nothing else"
     tests = np.concatenate(drawn.tests[ResultPoses])
     searched = np.concatenate(drawn.tests[SearchPoses])
-    learned = np.concatenate([its for kind in drawn.desired.values() for its in kind])
+    learned = np.concatenate([desired for kind in drawn.desired.values() for desired in kind])
     assert min(map(len, map(np.unique, (tests, searched, learned)))) > 500
     for some, others in ((tests, learned), (tests, searched), (searched, learned)):
         assert not np.isin(some, others).any()
@@ -179,5 +172,5 @@ def test_the_first_setups_of_the_campaign_and_their_replicates_share_no_poses():
         for number in range(3)
         for replicate in range(2)
     ]
-    poses = np.concatenate([np.append(its.desired, its.tests) for its in drawn])
+    poses = np.concatenate([np.append(draw.desired, draw.tests) for draw in drawn])
     assert len(np.unique(poses)) == len(poses)

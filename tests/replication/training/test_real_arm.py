@@ -33,7 +33,7 @@ from replication.training import (
     remaining_errors,
     with_tool_point,
 )
-from tests.conftest import ROOT
+from tests.conftest import ROOT, changed
 
 # As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
@@ -72,11 +72,11 @@ def table(ur5) -> pd.DataFrame:
     ]
     measured = apply(ur5, defects).forward(angles)[:, :3, 3] * [-1, -1, 1]
     nominal = (MANUFACTURERS.forward(angles) @ [*TOOL_POINT, 1])[:, :3]
-    missed = measured - nominal + 2e-5 * generator.standard_normal((150, 3))
+    errors = measured - nominal + 2e-5 * generator.standard_normal((150, 3))
     columns = {"step_order": range(150)}
     columns |= {f"joint_{number + 1}": np.degrees(angles[:, number]) for number in range(6)}
     columns |= {f"{axis}_t": 1e3 * nominal[:, index] for index, axis in enumerate("xyz")}
-    columns |= {f"{axis}_dif": 1e3 * missed[:, index] for index, axis in enumerate("xyz")}
+    columns |= {f"{axis}_dif": 1e3 * errors[:, index] for index, axis in enumerate("xyz")}
     return pd.DataFrame(columns)
 
 
@@ -87,24 +87,20 @@ def recording(table, ur5, description, tmp_path_factory):
     return read_of(ur5.arm, path, description)
 
 
-def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
-    distance = np.linalg.norm(
-        ur5.arm.forward(recording.angles)[:, :3, 3] - recording.nominal, axis=1
-    )
+def test_learners_leave_ever_smaller_errors_of_what_was_recorded(recording, ur5):
+    reached = ur5.arm.forward(recording.angles)[:, :3, 3]
+    distance = np.linalg.norm(reached - recording.nominal, axis=1)
     assert distance.max() < 5e-5
-
-
-def test_learners_leave_ever_smaller_errors(recording, ur5):
-    known, unknown = recording[:100], recording[100:]
-    left = {name: 1e3 * remaining_errors(name, ur5, known, unknown).mean() for name in peers()}
-    assert left["uncorrected"] == pytest.approx(
-        1e3 * np.linalg.norm(unknown.measured - unknown.nominal, axis=1).mean()
+    fit, test = recording[:100], recording[100:]
+    errors = {name: 1e3 * remaining_errors(name, ur5, fit, test).mean() for name in peers()}
+    assert errors["uncorrected"] == pytest.approx(
+        1e3 * np.linalg.norm(test.measured - test.nominal, axis=1).mean()
     )
-    assert left["affine"] < left["uncorrected"] / 2
-    assert left["quadratic"] < left["affine"]
-    assert left["gaussian_process"] < left["affine"]
-    assert left["geometric"] < left["quadratic"]
-    assert left["hybrid"] < 0.04 < 0.07 < left["geometric"]
+    assert errors["affine"] < errors["uncorrected"] / 2
+    assert errors["quadratic"] < errors["affine"]
+    assert errors["gaussian_process"] < errors["affine"]
+    assert errors["geometric"] < errors["quadratic"]
+    assert errors["hybrid"] < 0.04 < 0.07 < errors["geometric"]
 
 
 @pytest.mark.parametrize("learner", peers())
@@ -116,10 +112,10 @@ def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
     up = [0, 0, 1.0]
     tests = recording[100:110]
     far = replace(tests, measured=tests.measured + up)
-    left = remaining_errors(learner, ur5, recording[:30], far)
-    assert np.abs(left - 1).max() < 0.01
+    errors = remaining_errors(learner, ur5, recording[:30], far)
+    assert np.abs(errors - 1).max() < 0.01
     alone = remaining_errors(learner, ur5, recording[:30], far[:1])
-    assert alone == pytest.approx(left[:1], abs=1e-9)
+    assert alone == pytest.approx(errors[:1], abs=1e-9)
 
 
 @pytest.fixture
@@ -132,9 +128,8 @@ def files(table, tmp_path):
 
 
 def learned(study, files, learner, poses, subsets, settings=(), **changes):
-    real = study.real.model_copy(update={"poses": poses, "subsets": subsets} | changes)
-    its = study.model_copy(update={"real": real})
-    return learn(its, learner, *files, settings)
+    real = {"poses": poses, "subsets": subsets} | changes
+    return learn(changed(study, real=real), learner, *files, settings)
 
 
 def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(study, files, monkeypatch):
@@ -142,38 +137,39 @@ def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(study, files,
     assert found[["poses", "subset"]].to_numpy().tolist() == [[10, 0], [10, 1], [10, 2], [40, 0]]
     assert found["position_error_mm"].nunique() == 4 and not found["twin"].any()
     # another number of poses draws other subsets, not more of the same
-    taught = []
+    fitted = []
     monkeypatch.setattr(
         "replication.training.real_arm.remaining_errors",
-        lambda _, robot, known, tests: taught.append({*known.angles[:, 0]}) or np.ones(1),
+        lambda _, robot, known, tests: fitted.append({*known.angles[:, 0]}) or np.ones(1),
     )
     learned(study, files, "affine", (10, 20), 2)
-    assert not any(few <= more for few in taught[:2] for more in taught[2:])
+    assert not any(few <= more for few in fitted[:2] for more in fitted[2:])
     monkeypatch.undo()
     nothing = learned(study, files, "uncorrected", (10, 40), 3)
     assert nothing["position_error_mm"].nunique() == 1 and len(nothing) == 2
 
 
 def test_on_a_twin_a_learner_chooses_its_poses(study, files, settings, monkeypatch):
-    training = study.training.model_copy(update={"tests": 5})
-    its = study.model_copy(update={"training": training})
-    asked, learner = [], Tuned.learner
+    few = changed(study, training={"tests": 5})
+    requested, learner = [], Tuned.learner
 
     def noted(self, *what):
-        asked.append(what)
+        requested.append(what)
         return learner(self, *what)
 
     monkeypatch.setattr(Tuned, "learner", noted)
     twin = {"improved": 200}
-    found = learned(its, files, "improved", (2, 4, 1000), 3, settings, twin=twin)
-    assert asked == [("improved", 200, 3)]
+    found = learned(few, files, "improved", (2, 4, 1000), 3, settings, twin=twin)
+    assert requested == [("improved", 200, 3)]
     assert found["twin"].all() and found["subset"].tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
     assert found["poses"].tolist() == [2, 4, 400] * 3  # two moves an iteration
     by_moves = found.groupby("poses")["position_error_mm"].mean()
     assert by_moves[400] < by_moves[2]
 
 
-def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
+def test_tables_of_too_little_or_in_another_frame_are_refused(
+    recording, ur5, tmp_path, table, description
+):
     path = tmp_path / "half.toml"
     path.write_text('[target]\nposition = ["0 mm", "0 mm", "1 mm"]\n')
     with pytest.raises(InvalidFile, match=r"half\.toml: its instrument or its target is missing"):
@@ -183,9 +179,6 @@ def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
     pd.DataFrame(columns).to_csv(tmp_path / "half.csv", index=False)
     with pytest.raises(InvalidFile, match="lacks x_nominal, y_nominal, z_nominal or what was"):
         read_of(ur5.arm, tmp_path / "half.csv", Description(instrument=np.eye(4)))
-
-
-def test_a_table_in_another_frame_is_refused(table, ur5, description, tmp_path):
     path = tmp_path / "table.csv"
     table.assign(x_t=-table["x_t"], y_t=-table["y_t"]).to_csv(path, index=False)
     with pytest.raises(WrongNominal, match=r"likely: the base turned by 180\.0 deg"):
@@ -194,20 +187,15 @@ def test_a_table_in_another_frame_is_refused(table, ur5, description, tmp_path):
 
 @pytest.mark.parametrize("digest", ["0" * 64, "f" * 64])
 def test_another_table_than_the_one_that_is_meant_is_refused(digest, study, tmp_path):
-    given = tmp_path / "given.csv"
-    given.write_text("a table")
-    its = hashlib.sha256(given.read_bytes()).hexdigest()
+    path = tmp_path / "given.csv"
+    path.write_text("a table")
+    actual = hashlib.sha256(path.read_bytes()).hexdigest()
     right, wrong = (
-        Source(url="https://there", file=str(given), sha256=sha256) for sha256 in (its, digest)
+        Source(url="https://there", file=str(path), sha256=sha256) for sha256 in (actual, digest)
     )
     assert fetched(right) == b"a table"
-    data = study.real.data.model_copy(update={"fit": right, "test": wrong})
-    real = study.real.model_copy(update={"data": data})
-    with pytest.raises(RecalibError, match=f"has SHA-256 {its}; expected {digest}"):
-        fetch(study.model_copy(update={"real": real}))
-
-
-def test_a_table_out_of_reach_says_how_to_bring_one(tmp_path):
+    with pytest.raises(RecalibError, match=f"has SHA-256 {actual}; expected {digest}"):
+        fetch(changed(study, real={"data": {"fit": right, "test": wrong}}))
     gone = str(tmp_path / "gone.csv")
     with pytest.raises(RecalibError, match=r"gone.csv is out of reach .* can be named in real"):
         fetched(Source(url="https://there", file=gone, sha256="0" * 64))

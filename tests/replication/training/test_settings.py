@@ -1,11 +1,24 @@
 """Widths and rates: as rows that a learner takes, and as points that a search moves."""
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 import pytest
 
 from recalib import RecalibError, Rules
-from replication.config import SWITCHES
-from replication.training import Space, Tuned, rules_of, trained
+from replication.config import SWITCHES, Ranges, RoughSearch
+from replication.training import (
+    SearchPoses,
+    Space,
+    Stream,
+    Trials,
+    Tuned,
+    Tuning,
+    rules_of,
+    trained,
+    worse,
+)
+from tests.replication.campaign.planted import valley
 
 
 @pytest.fixture
@@ -22,14 +35,15 @@ def columns(space, rows):
 
 
 def test_points_fill_the_ranges_and_widths_and_rates_fall(space, study):
-    its = columns(space, space.rows(points(200)))
+    settings = columns(space, space.rows(points(200)))
     low, high = study.search.ranges.widths
     for name in space.neighbourhoods:
-        assert (low * 0.999 <= its[name]).all()
-        assert (its[name] <= its["initial_width"] * 1.001).all()
-    assert its["initial_width"].max() > 0.7 * high and its["initial_width"].min() < 2 * low
-    assert (its["final_rate"] <= its["initial_rate"] * 1.001).all()
-    assert its["initial_rate"].max() <= 1
+        assert (low * 0.999 <= settings[name]).all()
+        assert (settings[name] <= settings["initial_width"] * 1.001).all()
+    assert settings["initial_width"].max() > 0.7 * high
+    assert settings["initial_width"].min() < 2 * low
+    assert (settings["final_rate"] <= settings["initial_rate"] * 1.001).all()
+    assert settings["initial_rate"].max() <= 1
     ends = columns(space, space.rows(np.array([[1, 0, 1, 0, 1, 1, 1]])))
     assert [ends[name][0] for name in space.columns] == [high, low, high, low, high, 1, 1]
 
@@ -40,16 +54,13 @@ def test_a_row_and_its_point_are_the_same(space):
     assert np.allclose(rows, again, rtol=2e-3)  # four digits of each
 
 
-def test_a_neighbourhood_that_is_to_be_narrower_is(study):
+def test_a_neighbourhood_that_is_to_be_narrower_is_and_a_given_width_does_not_fall(study):
     rules = Rules(True, False, False, False)
     narrower = {"position_g_k": "position_g_kl"}
     space = Space(rules, study.search.ranges, narrower=narrower)
-    its = columns(space, space.rows(points(100)))
-    assert (its["position_g_k"] <= its["position_g_kl"] * 1.001).all()
-    assert (its["orientation_g_k"] > its["orientation_g_kl"]).any()
-
-
-def test_a_given_width_is_not_sought_and_does_not_fall(study):
+    settings = columns(space, space.rows(points(100)))
+    assert (settings["position_g_k"] <= settings["position_g_kl"] * 1.001).all()
+    assert (settings["orientation_g_k"] > settings["orientation_g_kl"]).any()
     rules = Rules(True, False, False, False)
     space = Space(rules, study.search.ranges, constant={"position_g_k": 2.0})
     assert "position_g_k" not in space.coordinates and len(space.coordinates) == 6
@@ -67,22 +78,18 @@ def test_a_learner_has_the_settings_of_the_reference_study_alone(study, settings
     assert np.isfinite(learner.schedule.initial_width).all()
     others = Tuned(study, settings).learner("improved", 500, 3)
     assert others.schedule.initial_width[0] != learner.schedule.initial_width[0]
-
-
-def test_without_settings_one_is_told_how_to_get_them(study, settings):
     with pytest.raises(RecalibError, match="no settings of improved for 201 iterations; try: make"):
         Tuned(study, settings).learner("improved", 201, 1)
 
 
 def test_every_training_of_a_study_needs_settings(study):
     needed = trained(study)
-    its = study.experiments
-    for learners in (its.learners, its.own):
-        assert {
-            (name, length) for name, lengths in learners.items() for length in lengths
-        } <= needed
+    plan = study.experiments
+    for learners in (plan.learners, plan.own):
+        pairs = {(name, length) for name, lengths in learners.items() for length in lengths}
+        assert pairs <= needed
     assert {*study.real.twin.items(), *study.benchmark.papers.items()} <= needed
-    assert ("improved", its.iterations) in needed
+    assert ("improved", plan.iterations) in needed
     assert {(switch.without, 200) for switch in SWITCHES} <= needed
 
 
@@ -94,9 +101,80 @@ def test_rules_are_what_the_configuration_says(study):
 
 @pytest.mark.parametrize("switch", SWITCHES)
 def test_a_switch_changes_one_thing_of_each_system(study, switch):
-    known = {name: its.model_dump() for name, its in study.every_learner.items()}
-    improved, ritter = known["improved"], known["ritter"]
-    without, added = known[switch.without], known[switch.added]
+    rules_by_name = {name: rules.model_dump() for name, rules in study.every_learner.items()}
+    improved, ritter = rules_by_name["improved"], rules_by_name["ritter"]
+    without, added = rules_by_name[switch.without], rules_by_name[switch.added]
     cells = {"supernet": (3, 6, 3)} if switch.key == "maps" else {}  # as many in one map as in two
     assert without == improved | {switch.key: ritter[switch.key]} | cells
     assert added == ritter | {switch.key: improved[switch.key]}
+
+
+NONE = np.zeros((1, 0, 6))
+
+
+@dataclass(frozen=True)
+class Valley:
+    """Trials whose optimum is a width of 0.5 with a rate of 0.8: there, a tenth remains."""
+
+    space: Space
+    poses = SearchPoses("search", NONE, NONE)
+    misled: float = 1.0  # factor of the optimal width, as by poses that are few
+
+    def first(self, runs):
+        return self
+
+    def shares(self, rows):
+        settings = dict(zip(self.space.columns, rows.T, strict=True))
+        logs = np.log(0.1) + valley(settings["initial_rate"], 0.8)
+        for name in self.space.neighbourhoods:
+            logs = logs + valley(settings[name], 0.5 * self.misled)
+        return np.exp(np.stack([logs, logs - 0.5], axis=-1))
+
+
+@pytest.fixture
+def tuning(study):
+    trials = Valley(Space(Rules(True, True, True, True), study.search.ranges))
+    plan = study.search.model_copy(update={"trials": 960, "near_trials": 160, "doublings": 1})
+    return Tuning([trials, trials], trials, plan)
+
+
+def test_searches_that_find_the_same_have_converged(tuning):
+    found = tuning.search()
+    assert found.settled and found.trials == 960
+    assert found.scores == pytest.approx(0.1, rel=0.02)
+    settings = dict(zip(tuning.fresh.space.columns, found.best, strict=True))
+    assert settings["initial_rate"] == pytest.approx(0.8, rel=0.15)
+    for name in tuning.fresh.space.neighbourhoods:
+        assert settings[name] == pytest.approx(0.5, rel=0.3)
+    starts = found.rows * 1.1
+    found = tuning.search(starts=np.minimum(starts, [20] * 5 + [1] * 2))
+    assert found.settled and found.trials == 160 and found.scores.max() < 0.102
+    effort = RoughSearch(trials=16, ranges=Ranges(widths=(0.1, 5.0), rates=(0.1, 1.0)))
+    found = tuning.rough(effort)
+    assert found.trials == 16 and not found.settled
+    assert 0.1 < found.scores[0] < 1
+    assert (found.best[:5] >= 0.0999).all() and (found.best[:5] <= 5.001).all()
+
+
+def test_searches_that_do_not_begin_again_once_with_twice_as_many_trials(tuning):
+    apart = replace(tuning, trials=[tuning.fresh, replace(tuning.fresh, misled=4.0)])
+    found = apart.search()
+    assert not found.settled and found.trials == 960 * 3
+    assert found.scores.max() > 1.02 * found.scores.min()
+    assert found.scores.argmin() == 0, "the best is that which leaves least on fresh poses"
+    assert (found.best == found.rows[0]).all()
+
+
+def test_the_larger_remaining_share_counts():
+    assert worse(np.array([[0.1, 0.3], [0.2, 0.1]])).tolist() == [0.3, 0.2]
+
+
+def test_a_share_is_of_the_arms_own_error_and_a_learner_that_diverges_is_worst(study, uneven):
+    controller = uneven.controller()
+    space = Space(Rules(True, True, True, True), study.search.ranges)
+    poses = Stream.SEARCH.draw(1, [0, 1], 30, 20, number=0, setup=0, replicate=0)
+    trials = Trials(space, poses, lambda runs: uneven.plant(controller, 1, range(runs)))
+    good, nothing = [4.6, 0.6, 0.6, 0.6, 0.6, 0.99, 0.7], [4.6, 0.6, 0.6, 0.6, 0.6, 0.02, 0.02]
+    shares = trials.shares(np.array([good, nothing]))
+    assert (shares[0] < 0.5).all() and (shares[1] > 0.5).all()
+    assert trials.uncorrected.shape == (2, 2) and (trials.uncorrected > 0.005).all()

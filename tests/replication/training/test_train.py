@@ -14,7 +14,8 @@ from replication.running import write
 from replication.training import Stream
 from replication.training import train as module
 from replication.training.train import train
-from tests.replication.conftest import settings_of
+from tests.conftest import changed
+from tests.replication.conftest import ALONE, settings_of
 
 SPARSE = Measuring(tests=2, measure_every=4, measure_evenly=200, measurements=50)
 
@@ -23,9 +24,6 @@ SPARSE = Measuring(tests=2, measure_every=4, measure_evenly=200, measurements=50
 def test_short_trainings_are_measured_evenly_and_at_their_end(iterations, every):
     grid = SPARSE.model_copy(update={"measure_every": every}).during(iterations)
     assert grid[0] == 0 and grid[-1] == iterations and set(np.diff(grid[:-1])) <= {every}
-
-
-def test_long_trainings_are_measured_on_a_logarithmic_grid():
     grid = SPARSE.during(10_000)
     assert grid[:3] == [0, 1, 2] and grid[-1] == 10_000 and 35 <= len(grid) <= 51
 
@@ -49,9 +47,8 @@ def test_poses_are_independent_by_default_or_spread_evenly():
     assert np.array_equal(drawn([2], 20).desired[0], same)
     short, long = (drawn([2, 3], n, order="even").desired for n in (20, 200))
     assert np.array_equal(short, long[:, :20])
-    assert (
-        not np.isclose(long[0], long[1]).any() and -1 < long.min() < -0.98 < 0.98 < long.max() < 1
-    )
+    assert not np.isclose(long[0], long[1]).any()
+    assert -1 < long.min() < -0.98 < 0.98 < long.max() < 1
     random = drawn([2, 3], 200).desired
     for one, other in zip(long, random, strict=True):
         assert qmc.discrepancy((one + 1) / 2) < 0.2 * qmc.discrepancy((other + 1) / 2)
@@ -59,17 +56,8 @@ def test_poses_are_independent_by_default_or_spread_evenly():
 
 @pytest.fixture(scope="module")
 def small(study):
-    plan = study.experiments.model_copy(
-        update={
-            "scenarios": ("links",),
-            "learners": {"improved": (6, 9)},
-            "own": {},
-            "robots": (),
-            "switches": False,
-        }
-    )
-    training = study.training.model_copy(update={"seeds": 2, "tests": 5, "measure_every": 4})
-    return study.model_copy(update={"experiments": plan, "training": training})
+    plan = {"scenarios": ("links",), "learners": {"improved": (6, 9)}} | ALONE
+    return changed(study, experiments=plan, training={"seeds": 2, "tests": 5, "measure_every": 4})
 
 
 @pytest.fixture
@@ -86,12 +74,8 @@ def test_a_history_has_all_lengths_and_the_archive_the_learner_of_the_shortest(j
     train(*arguments)
     table = pd.read_parquet(history)
     measured = table.groupby(["iterations", "seed"])["iteration"].agg(list).to_dict()
-    assert measured == {
-        (6, 0): [0, 4, 6],
-        (6, 1): [0, 4, 6],
-        (9, 0): [0, 4, 8, 9],
-        (9, 1): [0, 4, 8, 9],
-    }
+    short, long = [0, 4, 6], [0, 4, 8, 9]
+    assert measured == {(6, 0): short, (6, 1): short, (9, 0): long, (9, 1): long}
     last = table[table["iteration"] == table["iterations"]]
     assert (last["moves"] == 2 * last["iterations"]).all()
     before = table[table["iteration"] == 0].groupby("seed")["position_error_cm"]
@@ -105,5 +89,5 @@ def test_moves_that_the_controller_refused_by_the_end_are_told(job, monkeypatch,
     history = SimpleNamespace(refused=np.array([[0, 0, 2], [0, 1, 1]]), columns=columns.copy)
     monkeypatch.setattr(module, "train_for_results", lambda *_: history)
     train(*job[0])
-    said = capsys.readouterr().err
-    assert "improved, 6 iterations, on links: the controller refused 3 moves" in said
+    message = capsys.readouterr().err
+    assert "improved, 6 iterations, on links: the controller refused 3 moves" in message

@@ -8,7 +8,7 @@ const TICKS = [0, 50, 100, 150, 200];
 const PAUSE = 50; // ms between two measurements that are shown
 
 const find = selector => document.querySelector(`#try ${selector}`);
-const said = (number, unit) => `${number}${unit === "°" ? "" : " "}${unit}`;
+const withUnit = (number, unit) => `${number}${unit === "°" ? "" : " "}${unit}`;
 const named = name => name.replace(/_(link|joint)$/, "").replaceAll("_", " ");
 
 function drawn(parent, kind, attributes) {
@@ -22,8 +22,8 @@ class Page {
     this.experiment = new Experiment(study);
     this.study = study;
     this.pose = 0;
-    this.inputs = ["links", "joints"].flatMap(part => study.robot[part].map(its =>
-      this.slider(part, part === "links" ? its[0] : its)));
+    this.inputs = ["links", "joints"].flatMap(part => study.robot[part].map(entry =>
+      this.slider(part, part === "links" ? entry[0] : entry)));
     this.time = find("[name=iteration]");
     this.time.max = study.iterations / study.every;
     this.time.addEventListener("input", () => { this.stop(); this.show(+this.time.value); });
@@ -42,7 +42,7 @@ class Page {
     row.innerHTML = `<label for="${name}">${named(name)}</label><output for="${name}"></output>
       <input type="range" id="${name}" min="${min}" max="${max}" step="0.5">`;
     const [, output, input] = find(`.${part}`).appendChild(row).children;
-    const say = () => { output.value = input.ariaValueText = said(+input.value, unit); };
+    const say = () => { output.value = input.ariaValueText = withUnit(+input.value, unit); };
     input.addEventListener("input", () => { say(); this.damage(); });
     return {
       get: () => input.value / factor,
@@ -109,7 +109,7 @@ class Page {
   fill(row, measured, moves) {
     const cells = find(`tr.${row}`).cells;
     Object.entries(ERRORS).forEach(([error, unit], index) => {
-      cells[index + 1].textContent = said(measured[error].toFixed(2), unit);
+      cells[index + 1].textContent = withUnit(measured[error].toFixed(2), unit);
     });
     cells[3].textContent = moves;
   }
@@ -131,7 +131,7 @@ class Page {
     const short = this.study.robot.links.filter((_, link) => this.now[link]).map(([, end]) => end);
     const kind = damaged => (damaged ? "damaged" : "real");
     real.slice(1).forEach((end, part) => line(kind(short.includes(part)), real[part], end));
-    real.slice(1, -1).forEach((joint, its) => disc(kind(this.plant.offsets[its]), joint, 2.6));
+    real.slice(1, -1).forEach((origin, joint) => disc(kind(this.plant.offsets[joint]), origin, 2.6));
     drawn(svg, "polyline", { class: "believed", points: points.join(" ") });
     tests.slice(0, SHOWN).forEach(({ pose }, index) => {
       const missed = tool(this.plant.achieve(angles[index]));
@@ -157,8 +157,8 @@ class Page {
     TICKS.forEach(tick => text(across(tick), 124, tick, "middle"));
     const path = (kind, points) =>
       drawn(svg, "polyline", { class: kind, points: points.join(" ") });
-    const measured = this.history.map((its, index) =>
-      [across(index * this.study.every), down(its[error])]);
+    const measured = this.history.map((errors, index) =>
+      [across(index * this.study.every), down(errors[error])]);
     const left = down(this.identified[error]);
     path("identified", [measured[0], [across(MOVES / 2), left], [across(200), left]]);
     path("map", measured.slice(0, step + 1));

@@ -17,7 +17,7 @@ class Workspace {
     ];
     return [x, y, z].flatMap((along, row) => [
       ...[0, 1, 2].map(column =>
-        turn.reduce((sum, its, k) => sum + this.centre[4 * row + k] * its[column], 0)),
+        turn.reduce((sum, entries, k) => sum + this.centre[4 * row + k] * entries[column], 0)),
       this.centre[4 * row + 3] + along,
     ]);
   }

@@ -1,8 +1,7 @@
-"""Affine and quadratic corrections of the command, by recursive least squares.
+"""Black boxes: corrections of the command, without an arm's model.
 
-The correction, command minus achieved pose, is a polynomial of the achieved coordinates; asked for
-a desired pose, the learner commands it plus its correction. The prior is the intact robot: no
-correction, each coefficient with a deviation.
+The correction, command minus achieved pose, is a function of the achieved coordinates; asked for a
+desired pose, a learner commands it plus its correction.
 """
 
 import math
@@ -12,10 +11,11 @@ from typing import Any, Self
 import numpy as np
 
 from recalib.errors import InvalidSetting
-from recalib.learners.observer import Observer
+from recalib.learners.observer import Observer, Refitting
 from recalib.loop.interfaces import State
 from recalib.nominal.robots import Robot
 from recalib.numerics.monomials import monomials
+from recalib.numerics.regression import Process, is_time_to_search
 
 # Deviations of the coefficients by their degree, and of what the polynomial leaves, all in
 # workspace coordinates: wear of some centimetres and degrees, an arm's length away, bends the map
@@ -25,7 +25,9 @@ NOISE = 3e-3
 
 
 class PolynomialLearner(Observer):
-    """Regularised recursive least squares on the monomials of the pose coordinates.
+    """Affine and quadratic corrections, by regularised recursive least squares.
+
+    The prior is the intact robot: no correction, each coefficient with a deviation.
 
     Args:
         degree: 1 for affine, 2 for quadratic.
@@ -56,7 +58,7 @@ class PolynomialLearner(Observer):
             known = executed[:, [move], None]
             gain = reach / (1 + reach @ features.swapaxes(1, 2)) * known
             residuals = (commands - achieved)[:, [move]] - features @ self._coefficients
-            residuals = np.where(known, residuals, 0)  # what was refused may be nan
+            residuals = np.where(known, residuals, 0)  # a refused move's may be nan
             self._coefficients += gain.swapaxes(1, 2) @ residuals
             self._spread -= gain.swapaxes(1, 2) @ reach
 
@@ -80,3 +82,31 @@ class PolynomialLearner(Observer):
         """Restore a `state`."""
         self._coefficients = np.stack([state["coefficients"] for state in states])
         self._spread = np.stack([state["spread"] for state in states])
+
+
+class GaussianProcessLearner(Refitting):
+    """The correction as a Gaussian process of the achieved pose.
+
+    Hyperparameters are sought anew whenever the number of moves passes a power of two, up to
+    `regression.MOST` of them.
+    """
+
+    MODEL = "process"
+
+    def command(self, desired: np.ndarray) -> np.ndarray:
+        return np.stack(
+            [
+                poses if process is None else poses + process.predict(poses)
+                for poses, process in zip(desired, self.models, strict=True)
+            ]
+        )
+
+    def _fit(
+        self, sent: np.ndarray, achieved: np.ndarray, last: Process | None, before: int
+    ) -> Process:
+        if last is None or is_time_to_search(before, self.moves):
+            return Process(achieved, sent - achieved)
+        return Process(achieved, sent - achieved, last.hyperparameters)
+
+    def _restored(self, state: Mapping[str, Any]) -> Process:
+        return Process(**state)
