@@ -73,10 +73,9 @@ def test_angles_of_other_arms_or_joints_are_refused(arms):
     for wrong in ((1, 2, 5), (1, 2, 7), (2, 2, 6), (2, 6)):
         with pytest.raises(InvalidSetting, match=r"expected: an array \(1, 2, 6\)"):
             chain.forward(np.zeros(wrong))
-    for ask in (chain.jacobians, lambda angles: chain.solve(poses, angles)):
-        for wrong in ((2, 7), (6,)):
-            with pytest.raises(InvalidSetting, match=r"expected: an array \([12], 6\)"):
-                ask(np.zeros(wrong))
+    for wrong in ((2, 7), (6,)):
+        with pytest.raises(InvalidSetting, match=r"expected: an array \([12], 6\)"):
+            chain.solve(poses, np.zeros(wrong))
     with pytest.raises(InvalidSetting, match=r"expected: an array \(2, 4, 4\)"):
         chain.solve(poses[:1], start)
 
