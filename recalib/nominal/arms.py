@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
+from typing import NoReturn
 from xml.etree import ElementTree
 
 import numpy as np
@@ -180,19 +181,25 @@ class _Tree:
         # Pinocchio has no frames of links in a circle, which hang on nothing
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
-        if lost := sorted(links.difference(self._links)):
-            found = f"{listed(lost, 'and')} of {path} hang in a circle, on no base"
-            raise UnsuitableRobot(f"{found}; expected: a tree")
+        self._circles = sorted(links.difference(self._links))
         self.root = self._links[0]
 
     def link(self, role: str, name: str) -> str:
-        """The same name, if a link has it. Raises UnknownName."""
+        """The same name, if a link has it. Raises UnknownName, UnsuitableRobot (in a circle)."""
+        if name in self._circles:
+            self._refuse_circles()
         if name not in self._links:
             raise UnknownName(f"{role} link of {self._name}", name, self._links)
         return name
 
+    def _refuse_circles(self) -> NoReturn:
+        found = f"{listed(self._circles, 'and')} of {self._name} hang in a circle, on no base"
+        raise UnsuitableRobot(f"{found}; expected: a tree")
+
     def only_end(self, base: str) -> str:
         """The link above which there are joints that move, up to the base, and below it nothing."""
+        if self._circles:  # the arm may be in them
+            self._refuse_circles()
         carrying = {link_of(joint, "parent") for joint in self._joints.values()}
         ends = [
             link

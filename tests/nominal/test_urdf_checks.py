@@ -63,9 +63,12 @@ def test_a_mistake_is_named(change, message):
         arm_of(ARM.replace(*change, 1).encode(), PATH)
 
 
-def test_links_in_a_circle_of_their_own_are_refused():
-    with pytest.raises(UnsuitableRobot, match="one and two of arm.urdf hang in a circle, on no"):
-        arm_of(ARM.replace("</robot>", CIRCLE).encode(), PATH)
+def test_links_in_a_circle_are_no_part_of_the_arm_of_another_tool():
+    source = ARM.replace("</robot>", CIRCLE).encode()
+    for tool in (None, "one"):
+        with pytest.raises(UnsuitableRobot, match="one and two of arm.urdf hang in a circle, on"):
+            arm_of(source, PATH, tool)
+    assert arm_of(source, PATH, arm_of(ARM.encode(), PATH).tool).tool
 
 
 def test_an_arm_of_too_many_joints_is_refused():
