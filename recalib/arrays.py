@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from recalib.errors import InvalidSetting
+from recalib.files.quantities import Quantity
 
 SKEW = 1e-3  # of a rotation's axes: more than rounding
 Shape = Sequence[int | str]  # sizes, or letters for any size
@@ -41,6 +42,14 @@ def check_rotations(name: str, poses: np.ndarray) -> None:
     if not (good & (np.abs(rows - [0, 0, 0, 1]).max(axis=-1) < SKEW)).all():
         valid = "poses: a rotation (3, 3), a position (3,) in m, and 0, 0, 0, 1 below"
         raise InvalidSetting(name, "matrices of something else", valid)
+
+
+def check_size(name: str, numbers: np.ndarray, quantity: Quantity) -> None:
+    """Raise InvalidSetting if numbers in SI units are too large for a quantity of an arm."""
+    if (largest := np.abs(numbers).max(initial=0)) > quantity.farthest:
+        unit = next(unit for unit, size in quantity.units.items() if size == 1)
+        valid = f"up to {quantity.write(quantity.farthest)}; is its unit right?"
+        raise InvalidSetting(name, f"up to {largest:.3g} {unit}", valid)
 
 
 def _fits(array: np.ndarray, shape: Shape) -> bool:

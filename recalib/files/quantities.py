@@ -5,8 +5,6 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from recalib.errors import InvalidQuantity, InvalidSetting
 
 _TEXT = re.compile(r"\s*([-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)\s*([a-zA-Z/]+)\s*", re.ASCII)
@@ -41,13 +39,6 @@ class Quantity:
         except InvalidQuantity:
             valid = f"{self.name} in {', '.join(self.units)}"
             raise InvalidSetting(key, text, valid) from None
-
-    def check(self, key: str, numbers: np.ndarray) -> None:
-        """Raise InvalidSetting of numbers of SI units that are too large for an arm."""
-        if (largest := np.abs(numbers).max(initial=0)) > self.farthest:
-            unit = next(unit for unit, size in self.units.items() if size == 1)
-            valid = f"up to {self.write(self.farthest)}; is its unit right?"
-            raise InvalidSetting(key, f"up to {largest:.3g} {unit}", valid)
 
     def write(self, value: float) -> str:
         """A short text that reads as just this number of SI units, which must be finite."""

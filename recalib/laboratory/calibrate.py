@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.arrays import array_of, check_rotations
+from recalib.arrays import array_of, check_rotations, check_size
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import LENGTH, TIME
 from recalib.identification.checks.diagnostics import Untrustworthy
@@ -85,12 +85,12 @@ def calibrate(
     count, poses, columns = len(moving), None, {}
     if measured is not None:
         poses = array_of("measured", measured, (count, 3), (count, 4, 4))
-        LENGTH.check("measured", poses if poses.ndim == 2 else poses[:, :3, 3])
+        check_size("measured", poses if poses.ndim == 2 else poses[:, :3, 3], LENGTH)
         if poses.ndim == 3:
             check_rotations("measured", poses)
     if times is not None:
         columns[TIMES.name] = array_of("times", times, (count,))
-        TIME.check("times", columns[TIMES.name])
+        check_size("times", columns[TIMES.name], TIME)
     for kind, labels in ((TARGETS, targets), (SOCKETS, sockets)):
         if labels is not None:
             columns[kind.name] = _names(kind, labels, count)
@@ -114,7 +114,7 @@ def _frame(name: str, given: ArrayLike | None) -> np.ndarray | None:
         return None
     pose = array_of(name, given, (4, 4))
     check_rotations(name, pose)
-    LENGTH.check(name, pose[:3, 3])
+    check_size(name, pose[:3, 3], LENGTH)
     return pose
 
 

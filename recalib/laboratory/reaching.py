@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial import KDTree
 
-from recalib.arrays import array_of, check_rotations
+from recalib.arrays import array_of, check_rotations, check_size
 from recalib.errors import RecalibError
 from recalib.files.quantities import LENGTH
 from recalib.identification.calibration import Calibration
@@ -57,7 +57,7 @@ class Goals:
         if given.ndim == 1 or given.shape == (4, 4):
             given = given[None]
         goals = cls(given)
-        LENGTH.check("poses", goals.positions)
+        check_size("poses", goals.positions, LENGTH)
         if near is None:
             return goals
         postures = coupling.given("near", near, (len(given),), *[()] * (len(given) == 1))

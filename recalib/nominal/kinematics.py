@@ -11,7 +11,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from recalib.arrays import Shape, array_of
+from recalib.arrays import Shape, array_of, check_size
 from recalib.files.quantities import ANGLE, LENGTH
 
 
@@ -45,7 +45,7 @@ class Coupling:
         """
         array = array_of(name, coordinates, *((*shape, len(self.columns)) for shape in shapes))
         for kind, chosen in ((ANGLE, ~self.slides), (LENGTH, self.slides)):
-            kind.check(name, array[..., chosen])
+            check_size(name, array[..., chosen], kind)
         return array
 
     def joints(self, columns: np.ndarray) -> np.ndarray:
