@@ -23,7 +23,8 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Val
 from recalib.laboratory.correction import Commands, Correction
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.places import Place, found_places
-from recalib.laboratory.plausibility.mistakes import SHIFTED, mistake_of_outliers
+from recalib.laboratory.plausibility.mistakes import mistake_of_outliers
+from recalib.laboratory.plausibility.steps import SHIFTED
 from recalib.laboratory.urdf.origins import corrected_urdf
 from recalib.nominal.descriptions import UrdfFile
 from recalib.nominal.kinematics import Arm

@@ -16,7 +16,7 @@ import numpy as np
 from recalib.errors import RecalibError
 from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
 from recalib.laboratory.hand_eye.pose_table import PoseTable, other_readings
-from recalib.laboratory.plausibility.mistakes import UNITS
+from recalib.laboratory.plausibility.steps import UNITS
 from recalib.spelling import counted
 
 FEWEST = 6  # poses: each has 6 numbers, and 12 are sought

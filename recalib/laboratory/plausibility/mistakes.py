@@ -5,10 +5,7 @@ zero, sign or order of joints, another unit, a rotated base, a forgotten tool. E
 tried, alone and then in pairs; the one that explains the difference is named.
 """
 
-from collections.abc import Callable, Iterator
-from functools import partial
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -20,28 +17,21 @@ from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.linearisation import LEVER, displacements
 from recalib.identification.model.observations import Observations
+from recalib.laboratory.plausibility.steps import (
+    Step,
+    rare_steps_of,
+    steps_of,
+    steps_of_rotations,
+)
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
-SHIFTED = "joints of the row"
 EXPLAINED = 0.2  # the part of a difference that may remain without the mistake
-UNITS = {  # wrong units of positions, by the factor that corrects them
-    1e-3: "in millimetres labelled m",
-    1e-2: "in centimetres labelled m",
-    1e-1: "in millimetres labelled cm",
-    1e1: "in centimetres labelled mm",
-    25.4: "in inches labelled mm",
-    1e2: "in metres labelled cm",
-    1e3: "in metres labelled mm",
-}
 SAME = 1e-6  # a difference of such parts below which two mistakes explain the same
 FEWEST = 3  # outliers that one mistake has to explain
 ENOUGH = 40  # rows to try mistakes on
-QUARTERS = 90, -90, -180  # degrees
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: less is not reported
-
-Change = Callable[[np.ndarray], np.ndarray]
 
 
 class WrongNominal(RecalibError):
@@ -125,10 +115,10 @@ def likely_mistake(
         plain = min(plain, _rms(_gaps(poses, measured[rows], frames.base, frames.targets[0])))
     if plain <= MOVED:  # a perfect arm's rounding is explained by many mistakes
         return None
-    steps = [*_steps(arm), *(_steps_of_rotations() if measured.ndim == 3 else ())]
+    steps = [*steps_of(arm), *(steps_of_rotations() if measured.ndim == 3 else ())]
     for count in range(1, most_steps + 1):
         fits = []
-        for chosen in combinations(steps if count > 1 else [*steps, *_rare_steps(arm)], count):
+        for chosen in combinations(steps if count > 1 else [*steps, *rare_steps_of(arm)], count):
             joints, righted = coordinates, measured
             for step in chosen:
                 joints, righted = step.joints(joints), step.measured(righted)
@@ -151,10 +141,10 @@ def mistake_of_outliers(geometry: Calibration, observations: Observations) -> st
     if observations.measured is None or len(rows) < FEWEST:
         return None
     joints, measured = observations.joints[rows], observations.measured[rows]
-    turned = _steps_of_rotations() if measured.ndim == 3 else ()
+    turned = steps_of_rotations() if measured.ndim == 3 else ()
     arm, fits = geometry.model.nominal, []
-    for step in (Step(""), *_steps(arm), *_rare_steps(arm), *turned):
-        if step.words.startswith(SHIFTED):  # of which outliers know nothing
+    for step in (Step(""), *steps_of(arm), *rare_steps_of(arm), *turned):
+        if step.of_neighbours:
             continue
         poses = geometry.predict(step.joints(joints), observations.targets[rows])
         fits.append((_gaps(poses, step.measured(measured), np.eye(4), np.eye(4)), step.words))
@@ -164,113 +154,6 @@ def mistake_of_outliers(geometry: Calibration, observations: Observations) -> st
         return None
     some = f"{len(wrong)} rows, from {wrong[0]} to {wrong[-1]},"
     return f"{some} probably contain a mistake, without which they fit the others: {words}"
-
-
-class Step(NamedTuple):
-    """A mistake in words, and what undoes it in joints and in positions or poses."""
-
-    words: str
-    joints: Change = np.asarray
-    measured: Change = np.asarray
-
-
-def _steps(arm: Arm) -> Iterator[Step]:
-    count, each = len(arm.joints), np.eye(len(arm.joints))
-    for words, factor in (
-        ("degrees labelled rad", np.pi / 180),
-        ("radians labelled deg", 180 / np.pi),
-    ):
-        scale = np.where(arm.slides, 1.0, factor)
-        yield Step(f"joint columns in {words}", partial(np.multiply, scale))
-    for factor, words in UNITS.items():
-        yield Step(f"positions {words}", measured=partial(_scaled, factor))
-    mirror = partial(_scaled, -1.0)
-    yield Step("positions with a reversed axis, or two exchanged", measured=mirror)
-    for joint, name in enumerate(arm.joints):
-        yield Step(f"the sign of {name}", partial(np.multiply, 1 - 2 * each[joint]))
-    for joint, name in enumerate(arm.joints):
-        for degrees in () if arm.slides[joint] else QUARTERS:
-            shift = partial(np.add, np.radians(degrees) * each[joint])
-            yield Step(f"the zero of {name}, off by {-degrees} deg", shift)
-    for one, other in combinations(range(count), 2):
-        order = np.arange(count)
-        order[[one, other]] = other, one
-        names = f"{arm.joints[one]} and {arm.joints[other]}"
-        exchange = partial(np.take, indices=order, axis=1)
-        yield Step(f"the columns of {names} exchanged", exchange)
-        if other == one + 1 and arm.slides[one] == arm.slides[other]:  # as of a parallelogram
-            for column, by, sign in ((other, one, 1), (other, one, -1), (one, other, 1)):
-                change = np.eye(count)
-                change[by, column] = -sign
-                words = f"{arm.joints[column]} {'plus' if sign > 0 else 'minus'} {arm.joints[by]}"
-                without = partial(np.dot, b=change)
-                yield Step(f"a column {arm.joints[column]} that holds {words}", without)
-    yield Step("the joint columns in reverse order", np.fliplr)
-    for rows, row in ((-1, "before"), (1, "after")):
-        yield Step(f"{SHIFTED} {row}", partial(np.roll, shift=rows, axis=0))
-
-
-def _rare_steps(arm: Arm) -> Iterator[Step]:
-    """Mistakes in one column of many, or in all joints: each is tried by itself."""
-    yield Step("the signs of all joints", np.negative)
-    turns = {
-        "degrees labelled rad": np.pi / 180,
-        "radians labelled deg": 180 / np.pi,
-        "half of its turn": 2.0,
-        "twice its turn": 0.5,
-    }
-    each = np.eye(len(arm.joints))
-    for joint in np.flatnonzero(~arm.slides):
-        for words, factor in turns.items():
-            scale = partial(np.multiply, 1 + (factor - 1) * each[joint])
-            yield Step(f"a column {arm.joints[joint]} that holds {words}", scale)
-    for axis, name in enumerate("xyz"):
-        for factor in (1e-3, 1e3):
-            scale = partial(_scaled, 1 + (factor - 1) * np.eye(3)[axis])
-            yield Step(f"a column {name} {UNITS[factor]}", measured=scale)
-
-
-def _steps_of_rotations() -> Iterator[Step]:
-    """Mistakes in measured rotations, in whichever columns they are."""
-    inverse = "poses of the instrument in the target's frame; expected: of the target in the"
-    yield Step(f"{inverse} instrument's", measured=np.linalg.inv)
-    euler = Rotation.from_euler
-    changes: dict[str, Callable[[Rotation], Rotation]] = {
-        "rotations of the instrument in the target's frame": Rotation.inv,
-        "a quaternion in the order qw, qx, qy, qz": (
-            lambda turns: Rotation.from_quat(np.roll(turns.as_quat(), -1, axis=1))
-        ),
-        "roll, pitch and yaw about moving axes": lambda turns: euler("XYZ", _angles(turns)),
-        "roll, pitch and yaw in radians labelled deg": (
-            lambda turns: euler("xyz", np.degrees(_angles(turns)))
-        ),
-        "a rotation vector in radians labelled deg": (
-            lambda turns: Rotation.from_rotvec(np.degrees(turns.as_rotvec()))
-        ),
-        "roll, pitch and yaw in reverse order": lambda turns: euler("xyz", _angles(turns)[:, ::-1]),
-    }
-    for words, change in changes.items():
-        yield Step(words, measured=partial(_turned, change))
-
-
-def _angles(rotations: Rotation) -> np.ndarray:
-    """Roll, pitch and yaw (n, 3) [rad]; some of many at a pitch of a right angle."""
-    return rotations.as_euler("xyz", suppress_warnings=True)
-
-
-def _scaled(factor: float | np.ndarray, measured: np.ndarray) -> np.ndarray:
-    """Positions (n, 3), or poses (n, 4, 4), with positions times a factor, or (3,)."""
-    scaled = measured.copy()
-    places = scaled if measured.ndim == 2 else scaled[:, :3, 3]
-    places *= factor
-    return scaled
-
-
-def _turned(change: Callable[[Rotation], Rotation], poses: np.ndarray) -> np.ndarray:
-    """Poses (n, 4, 4) with other rotations."""
-    turned = poses.copy()
-    turned[:, :3, :3] = change(Rotation.from_matrix(poses[:, :3, :3])).as_matrix()
-    return turned
 
 
 def _gaps(
