@@ -35,8 +35,10 @@ class Maps:
         if rules.initial is not None and not rules.theta_increments:
             theta = np.random.default_rng(rules.initial).uniform(-1, 1, theta.shape)
         jacobian = np.broadcast_to(np.eye(6).ravel(), (*shape, 36))
+        # In C order, which `np.stack` does not choose for copies of one Jacobian: `settle` takes
+        # twice as long in any other.
         theta, jacobian = (
-            np.stack([np.stack(np.split(start, maps, axis=-1))] * runs)
+            np.ascontiguousarray(np.stack([np.stack(np.split(start, maps, axis=-1))] * runs))
             for start in (theta, jacobian)
         )
         waiting = runs, maps, WAITING
