@@ -288,3 +288,22 @@ def lasting(rate: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray) -> tuple[np.nda
                 weights[update, cell] = weight * remaining[cell]
                 remaining[cell] *= 1 - weight
     return weights, remaining
+
+
+@compiled
+def propagate(
+    theta: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray, star: np.ndarray, increments: bool
+) -> None:
+    """Move theta (run, K, L, o) by increments, (7), or draw it towards values, (4).
+
+    Args:
+        g_k (run, K), g_kl (run, L): neighbourhoods, one of them times the learning rate.
+        star: (run, o) what is propagated.
+    """
+    for run, k, l in np.ndindex(theta.shape[:3]):
+        weight = g_k[run, k] * g_kl[run, l]
+        for output in range(star.shape[1]):
+            change = star[run, output]
+            if not increments:
+                change -= theta[run, k, l, output]
+            theta[run, k, l, output] += weight * change

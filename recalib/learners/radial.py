@@ -7,6 +7,7 @@
 import numpy as np
 from scipy.special import softmax
 
+from recalib.learners import kernels
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
@@ -79,11 +80,11 @@ class RadialLearner:
         widths = fall(*self._widths, fraction, self.rules.width_power)
         for each, outputs in enumerate(self.rules.maps.values()):
             g_k, g_kl = self.nets.neighbourhood(k, l, *widths[:, each].T)
-            weights = rate[:, None, None, None] * g_k[:, :, None, None] * g_kl[:, None, :, None]
-            change = increment[:, None, None, outputs]
+            star = increment[:, outputs]
             if not self.rules.theta_increments:
-                change = winner[:, None, None, outputs] + change - self.theta[..., outputs]
-            self.theta[..., outputs] += weights * change
+                star = winner[:, outputs] + star
+            theta = self.theta[..., outputs]
+            kernels.propagate(theta, rate[:, None] * g_k, g_kl, star, self.rules.theta_increments)
 
     def _shares(self, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """phi over its sum (run, pose, cell), in one net, for points (run, pose, 3)."""
