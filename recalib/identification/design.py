@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from recalib.errors import check_kind
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
@@ -18,7 +19,10 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     Args:
         calibration: so far.
         joints: (n, joints) rad, m, each for one measurement of the first target.
+
+    Raises InvalidSetting: another shape, something else than a calibration.
     """
+    check_kind("calibration", calibration, Calibration)
     return _gains(_spreads(_rows(calibration, joints), calibration.estimate.covariance))
 
 

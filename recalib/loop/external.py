@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.errors import BadMeasurement
+from recalib.errors import BadMeasurement, check_kind
 from recalib.loop.interfaces import Outcome
 from recalib.nominal.poses import Workspace
 
@@ -30,6 +30,8 @@ class ExternalRobot:
     """
 
     def __init__(self, workspace: Workspace, move: Callable[[np.ndarray], np.ndarray | None]):
+        check_kind("workspace", workspace, Workspace)
+        check_kind("move", move, Callable)  # type: ignore[arg-type]
         self.workspace, self._move = workspace, move
         self.moves = 0
         self.refused: np.ndarray | int = 0
