@@ -1,10 +1,9 @@
 """Which figures there are, with their captions; `drawing` draws them."""
 
-import csv
 from enum import Enum
 from pathlib import Path
 
-from replication.config.shipped import FEWEST, OUTCOMES, SHIPPED
+from replication.config.shipped import OUTCOMES, SHIPPED
 from replication.config.study import Study
 
 
@@ -115,20 +114,12 @@ APART = Figure.BENCHMARK, Figure.REAL_ARM  # of targets of their own
 
 def figures_of(study: Study) -> list[str]:
     """The files, without suffix, of the figures for which a default run of a study has results."""
-    evidence, setups = study.experiments.evidence, _setups(study)
+    evidence = study.experiments.evidence
+    judged = evidence and study.name == SHIPPED and Path(OUTCOMES).exists()
     lacking = {
-        Figure.STEPS: not setups,
-        Figure.CONTRASTS: len(setups) < FEWEST,
+        Figure.STEPS: not judged,
+        Figure.CONTRASTS: not judged,
         Figure.MAPPING: not evidence,
         Figure.AMOUNTS: not evidence,
     }
     return [figure.file for figure in Figure if figure not in APART and not lacking.get(figure)]
-
-
-def _setups(study: Study) -> set[str]:
-    """The setups of the campaign that are measured so far, if the study judges by them."""
-    table = Path(OUTCOMES)
-    if study.name != SHIPPED or not study.experiments.evidence or not table.exists():
-        return set()
-    with table.open(encoding="utf-8", newline="") as file:
-        return {row["setup"] for row in csv.DictReader(file)}
