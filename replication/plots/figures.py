@@ -30,9 +30,9 @@ class Figure(Enum):
         " system's share after {study.experiments.iterations} iterations. Bottom: iterations after"
         " which each system reaches this line, and their ratio to {study.experiments.iterations}."
         " Ritter's map has as many cells as both new maps together, or half as many; + means: two"
-        " maps with this change. A last row shows the number in all setups, once enough are"
-        " measured (triangle: a lower bound), and their mean (diamond) with its 95 % interval"
-        " (thick) and that for one more study (thin).",
+        " maps with this change. The last row shows the number in every setup (triangle: a lower"
+        " bound), and their mean (diamond) with its 95 % interval (thick) and that for one more"
+        " study (thin).",
     )
     CONTRASTS = (
         "contrasts:contrasts",
