@@ -104,6 +104,9 @@ def wrong_calls() -> dict[str, Callable[[], object]]:
     plant = recalib.Plant(controller, recalib.apply(robot, []))
     poses, joints = np.zeros((1, 2, 6)), np.zeros((3, 6))
     arrays = recalib.Observations(joints, joints[:, :3])
+    postures = np.random.default_rng(0).uniform(-1, 1, (12, 6)) + robot.home
+    measured = recalib.Observations(postures, robot.arm.forward(postures))
+    found = recalib.GeometricLearner.identify(robot.arm, measured)
     others = {"a string": "2", "nothing": None, "words": ["a", "b"], "nan": np.nan, "zero": 0}
     calls = {
         f"a schedule whose {key} is {name}": partial(recalib.Schedule, **good | {key: value})
@@ -118,9 +121,7 @@ def wrong_calls() -> dict[str, Callable[[], object]]:
             f"{name} for rules of units": partial(recalib.RadialLearner, other, schedule),
             f"{name} for a schedule": partial(recalib.HierarchicalLearner, rules, other),
             f"a learner behind {name}": partial(recalib.HybridLearner, other),
-            f"{name} for runs": partial(recalib.GaussianProcessLearner, runs=other and -1),
             f"{name} observed": partial(recalib.HybridLearner.identify, robot.arm, other),
-            f"{name} identified": partial(recalib.HybridLearner.identify, other or 3, other),
             f"{name} trained": partial(recalib.train, plant, other, poses, poses, [1]),
             f"{name} that moves": partial(recalib.ExternalRobot, robot.workspace, other),
             f"{name} as damage": partial(recalib.apply, robot, [other]),
@@ -129,12 +130,18 @@ def wrong_calls() -> dict[str, Callable[[], object]]:
             f"a workspace about {name}": partial(recalib.Workspace, other, np.ones(6)),
             f"a workspace as large as {name}": partial(recalib.Workspace, np.eye(4), other),
             f"noise of {name}": partial(recalib.Noise, other),
-            f"a shift by {name}": partial(recalib.EncoderShift, "elbow_joint", other and "3 deg"),
             f"rows of {name}": partial(recalib.arm_of_table, other),
             f"gains of {name}": partial(recalib.information_gains, other, joints),
             f"frames from {name}": partial(recalib.initial_frames, robot.arm, other),
         }
     return calls | {
+        "no run": partial(recalib.GaussianProcessLearner, runs=0),
+        "half a run": partial(recalib.PolynomialLearner, 1, runs=0.5),
+        "a robot identified": partial(recalib.HybridLearner.identify, robot, arrays),
+        "a shift in words": partial(recalib.EncoderShift, "elbow_joint", "3 deg"),
+        "no shift": partial(recalib.EncoderShift, "elbow_joint", None),
+        "joints of another arm": partial(recalib.information_gains, found, joints[:, :5]),
+        "one posture for many": partial(recalib.information_gains, found, joints[0]),
         "the learner before the plant": partial(recalib.train, learner, plant, poses, poses, [1]),
         "a damage that is no list": partial(recalib.apply, robot, recalib.Noise()),
         "one pose for many": partial(controller.inverse, np.eye(4)),

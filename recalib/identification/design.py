@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from recalib.arrays import array_of
 from recalib.errors import check_kind
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.observations import Observations
@@ -23,6 +24,7 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     Raises InvalidSetting: another shape, something else than a calibration.
     """
     check_kind("calibration", calibration, Calibration)
+    joints = array_of("joints", joints, ("n", len(calibration.model.nominal.joints)))
     return _gains(_spreads(_rows(calibration, joints), calibration.estimate.covariance))
 
 

@@ -66,11 +66,11 @@ class Refitting(Observer):
         runs: how many independent trainings.
         sent: how many numbers of a command are kept.
 
-    Raises InvalidSetting: no number of runs.
-
     Attributes:
         models: of each run; None where nothing has been learned.
         moves: how many there were, refused ones included.
+
+    Raises InvalidSetting: no number of runs.
     """
 
     MODEL: ClassVar[str]  # what a model is called in files

@@ -10,6 +10,7 @@ of its logarithm, dt is proportional to s^-n ds/s, and p = -n.
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -73,17 +74,13 @@ class Schedule:
     def __post_init__(self) -> None:
         check_kind("final_widths", self.final_widths, Mapping)
         for key in ("initial_width", "final_widths"):
-            given = getattr(self, key)
-            for widths in given.values() if isinstance(given, Mapping) else [(given, given)]:
-                if not isinstance(widths, Sequence | np.ndarray) or len(widths) != 2:
-                    raise InvalidSetting(key, widths, "two for each map, of g_k and of g_kl")
-                for width in widths:
-                    if not np.all(array_of(key, width, (), ("run",)) > 0):
-                        raise InvalidSetting(key, width, "above 0")
+            widths = getattr(self, key)
+            for pair in widths.values() if isinstance(widths, Mapping) else ():
+                if not isinstance(pair, Sequence | np.ndarray) or len(pair) != 2:
+                    raise InvalidSetting(key, pair, "two for each map, of g_k and of g_kl")
+            _each(partial(_check, key, np.inf, "above 0"), widths)
         for key in ("initial_rate", "final_rate"):
-            rate = array_of(key, getattr(self, key), (), ("run",))
-            if not np.all((rate > 0) & (rate <= 1)):
-                raise InvalidSetting(key, getattr(self, key), "above 0 and at most 1")
+            _check(key, 1.0, "above 0 and at most 1", getattr(self, key))
 
     def over(self, runs: int) -> "Schedule":
         """The same for a number of runs, all arrays (run,).
@@ -128,6 +125,13 @@ class Schedule:
         """The schedule with what `change` makes of the numbers of others, place by place."""
         parts = zip(*(vars(schedule).values() for schedule in schedules), strict=True)
         return cls(*(_each(change, *part) for part in parts))
+
+
+def _check(key: str, most: float, valid: str, given: float | np.ndarray) -> None:
+    """Raise InvalidSetting unless numbers () or (run,) are above 0, and none is above the most."""
+    numbers = array_of(key, given, (), ("run",))
+    if not np.all((numbers > 0) & (numbers <= most)):
+        raise InvalidSetting(key, given, valid)
 
 
 def _each(change: Callable[..., Any], *parts: Any) -> Any:

@@ -111,8 +111,8 @@ def train(
             cm and degrees.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
 
-    Raises InvalidSetting: poses of other shapes, or none to measure on; a measurement after more
-    iterations than there are, or none at all.
+    Raises InvalidSetting: something else than a plant and a learner; poses of other shapes, or none
+    to measure on; a measurement after more iterations than there are, or none at all.
     """
     check_kind("plant", plant, Commandable)
     check_kind("learner", learner, Learner)

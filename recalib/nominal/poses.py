@@ -43,13 +43,12 @@ class Workspace:
     def __post_init__(self) -> None:
         if self.coordinates not in COORDINATES:
             raise UnknownName("coordinates of orientations", self.coordinates, COORDINATES)
-        given = {"centre": (4, 4), "half_ranges": (6,)}
-        for name, shape in given.items():
+        for name, shape in {"centre": (4, 4), "half_ranges": (6,)}.items():
             object.__setattr__(self, name, array_of(name, getattr(self, name), shape))
         check_rotations("centre", self.centre)
         if not (self.half_ranges > 0).all():
             raise InvalidSetting("half_ranges", self.half_ranges.tolist(), "above 0")
-        roll, pitch, yaw = turns = np.abs(self.half_ranges[ORIENTATION])
+        roll, pitch, yaw = turns = self.half_ranges[ORIENTATION]
         if self.region[2]:
             unique, most = np.linalg.norm(turns) < np.pi, "a diagonal below 180 deg"
         else:

@@ -81,6 +81,11 @@ class Judged:
         """That number with its name."""
         return f"{_named(self.number.name)}: {self.value}" if self.number else self.value
 
+    def of_system(self, system: str) -> Number | None:
+        """Its number for another algorithm, if it has one."""
+        numbers = self.finding.estimates if self.finding else ()
+        return next((number for number in numbers if number.system == system), None)
+
     def name(self, number: Number, before: Number | None = None) -> str:
         """What a number is, and of which algorithm if it is another one than that before."""
         name = _named(number.name)

@@ -93,7 +93,7 @@ def contrasts(evidence: Evidence) -> Figure:
     for axes, part, label in zip(panels, parts, labels, strict=True):
         _draw(axes, part)
         axes.set_xlabel(label)
-    panels[1].xaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    panels[1].xaxis.set_major_formatter(PercentFormatter(1, decimals=0, symbol=" %"))
     return figure
 
 

@@ -10,7 +10,7 @@ from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.laboratory.scene import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
-from replication.recording.colours import DAMAGE, NOMINAL, REACHED
+from replication.recording.colours import DAMAGE, NOMINAL
 from replication.recording.markers import base_shift, circle, markers
 from replication.recording.scene import ASSUMED, REAL, Scene, send_gripper
 
@@ -36,8 +36,8 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
     for link, poses in link_placements(damaged.arm, links, standing, base).items():
         send_frame(rec, f"{learner}/links/{link}", f"{learner}/{link}", clock, poses)
     reached, assumed = damaged.arm.forward(standing), robot.arm.forward(motion.angles)
-    send_gripper(scene, "tool", clock, reached, REACHED, REAL)
-    send_gripper(scene, "nominal/tool", clock, assumed, NOMINAL, ASSUMED)
+    send_gripper(scene, "tool", clock, reached, REAL)
+    send_gripper(scene, "nominal/tool", clock, assumed, ASSUMED)
     bones = robot.arm.skeleton(motion.angles)
     joints = rr.Points3D.columns(positions=bones.reshape(-1, 3))
     scene.send("nominal/joints", clock, joints, bones.shape[1])

@@ -20,6 +20,7 @@ Timeline `iterations` runs through the three phases of `phases.Motion`.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import rerun as rr
@@ -28,7 +29,7 @@ from scipy.spatial.transform import Rotation
 from recalib.laboratory.scene import send_frame
 from recalib.nominal.poses import POSITION
 from recalib.nominal.robots import Robot
-from replication.recording.colours import GREY, WHITE, Colour
+from replication.recording.colours import GREY, NOMINAL, REACHED, WHITE, Colour
 from replication.recording.phases import CLOCK, Clock, Motion
 from replication.recording.sight import Sight
 from replication.recording.watched import Watched
@@ -41,8 +42,27 @@ LINE = 0.14
 # of its stem, bar and fingers, and half their sizes without their thickness.
 CENTRES = np.array([(0.12, 0, 0), (0.24, 0, 0), (0.42, 0.18, 0), (0.42, -0.18, 0)])
 HALVES = np.array([(0.12, 0, 0), (0, 0.18, 0), (0.18, 0, 0), (0.18, 0, 0)])
-OUTLINE, REAL, ASSUMED = 0.05, 0.035, 0.03  # half their thickness: each fits into those before
 EDGE = 0.012  # radius of an outline's lines
+
+
+class Gripper(NamedTuple):
+    """A gripper as it is drawn.
+
+    Attributes:
+        half: of its thickness, in units of `Scene.unit`.
+        colour: of its boxes.
+        fill: whether they are solid, or their edges.
+    """
+
+    half: float
+    colour: Colour
+    fill: rr.components.FillMode
+
+
+# each fits into those before
+OUTLINE = Gripper(0.05, WHITE, rr.components.FillMode.MajorWireframe)
+REAL = Gripper(0.035, REACHED, rr.components.FillMode.Solid)
+ASSUMED = Gripper(0.03, NOMINAL, rr.components.FillMode.Solid)
 
 
 @dataclass(frozen=True)
@@ -92,7 +112,7 @@ def log_surroundings(scene: Scene, description: str) -> None:
     )
     scene.log("map/workspace", box)
     positions = scene.watched.desired[:, :3, 3]
-    scene.log("map/desired", rr.Points3D(positions, colors=WHITE, radii=OUTLINE * unit))
+    scene.log("map/desired", rr.Points3D(positions, colors=WHITE, radii=OUTLINE.half * unit))
 
 
 def log_legend(rec: rr.RecordingStream, sight: Sight, lines: Mapping[str, Colour]) -> None:
@@ -112,23 +132,22 @@ def send_target(scene: Scene, captions: Sequence[str]) -> None:
     scene.send("target/caption", clock, rr.Points3D.columns(labels=[captions[row] for row in rows]))
     visited = np.tile(scene.watched.desired, (2, 1, 1))
     departures = [rr.TimeColumn(CLOCK, sequence=motion.departures.ravel())]
-    send_gripper(scene, "target/pose", departures, visited, WHITE, OUTLINE)
+    send_gripper(scene, "target/pose", departures, visited, OUTLINE)
 
 
 def send_gripper(
-    scene: Scene, part: str, clock: Clock, poses: np.ndarray, colour: Colour, half: float
+    scene: Scene, part: str, clock: Clock, poses: np.ndarray, gripper: Gripper
 ) -> None:
-    """A gripper at poses (n, 4, 4) [m] over time, of this half thickness."""
+    """A gripper at poses (n, 4, 4) [m] over time."""
     frame = f"{scene.learner}/{part}"
     send_frame(scene.rec, f"{scene.learner}/links/{part}", frame, clock, poses)
     turn, _ = Rotation.align_vectors(scene.robot.outward, (1, 0, 0))
-    fills = rr.components.FillMode
     boxes = rr.Boxes3D(
         centers=scene.unit * turn.apply(CENTRES),
-        half_sizes=scene.unit * (HALVES + half),
+        half_sizes=scene.unit * (HALVES + gripper.half),
         quaternions=np.tile(turn.as_quat(), (len(CENTRES), 1)),
-        colors=colour,
+        colors=gripper.colour,
         radii=EDGE * scene.unit,
-        fill_mode=fills.MajorWireframe if half == OUTLINE else fills.Solid,
+        fill_mode=gripper.fill,
     )
     scene.log(part, boxes, rr.CoordinateFrame(frame))
