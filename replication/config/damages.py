@@ -30,8 +30,7 @@ _ENTRY = TypeAdapter(Entry)
 
 def describe(entry: Entry) -> dict[str, Any]:
     """The keys and values that are read as this entry, without those that are as by default."""
-    written: dict[str, Any] = _ENTRY.dump_python(entry, mode="json")
-    return written
+    return _ENTRY.dump_python(entry, mode="json")
 
 
 def damages_among(entries: Iterable[Entry]) -> list[Damage]:

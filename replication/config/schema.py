@@ -1,6 +1,6 @@
 """What the types say of every key: a JSON schema, for editors and for messages.
 
-`python -m replication.config` writes workflow/schemas/config.schema.json.
+`python -m replication.config.schema` writes workflow/schemas/config.schema.json.
 """
 
 import json
@@ -10,6 +10,7 @@ from pathlib import Path
 
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 
+from recalib.files.storage import whole
 from replication.config.messages import KeyPath
 from replication.config.study import Study
 
@@ -75,3 +76,8 @@ def meaning(schema: JsonSchemaValue) -> str:
     """What a key is, within a sentence; of a value in a list, that it is one."""
     text = schema.get("description") or resolved(schema).get("description", "A value.")
     return f"{text[0].lower()}{text[1:-1]}"
+
+
+if __name__ == "__main__":
+    with whole(FILE) as _path:
+        _path.write_text(text(), encoding="utf-8")

@@ -11,7 +11,6 @@ class Switch(NamedTuple):
     Attributes:
         key: of a learner's settings.
         ritter, improved: what each of the paper's learners has there.
-        label: what the change is called in figures.
         without: the improved system with this change taken away.
         added: Ritter's algorithm with this change alone.
     """
@@ -19,42 +18,17 @@ class Switch(NamedTuple):
     key: str
     ritter: str
     improved: str
-    label: str
     without: str
     added: str
 
 
 SWITCHES = (
+    Switch("maps", "single", "separate", "improved_single_map", "ritter_separate_maps"),
+    Switch("theta", "values", "increments", "improved_theta_values", "ritter_theta_increments"),
     Switch(
-        "maps",
-        "single",
-        "separate",
-        "separate maps",
-        "improved_single_map",
-        "ritter_separate_maps",
+        "jacobian", "values", "increments", "improved_jacobian_values", "ritter_jacobian_increments"
     ),
     Switch(
-        "theta",
-        "values",
-        "increments",
-        "increments of theta",
-        "improved_theta_values",
-        "ritter_theta_increments",
-    ),
-    Switch(
-        "jacobian",
-        "values",
-        "increments",
-        "increments of the Jacobians",
-        "improved_jacobian_values",
-        "ritter_jacobian_increments",
-    ),
-    Switch(
-        "schedule",
-        "exponential",
-        "equal_visits",
-        "schedule of equal visits",
-        "improved_exponential",
-        "ritter_equal_visits",
+        "schedule", "exponential", "equal_visits", "improved_exponential", "ritter_equal_visits"
     ),
 )

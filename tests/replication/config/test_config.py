@@ -120,7 +120,7 @@ def test_a_study_survives_the_round_trip_and_has_a_schema_that_describes_every_k
     study = read_study(SHIPPED)
     assert Study.model_validate_json(study.model_dump_json()) == study
     assert (ROOT / schema.FILE).read_text(encoding="utf-8") == schema.text(), (
-        "python -m replication.config writes it anew"
+        "python -m replication.config.schema writes it anew"
     )
     whole = schema.json_schema()
     undescribed = [
