@@ -30,15 +30,20 @@ def read_choices(path: Path) -> dict[str, Choice]:
     return {choice.name: choice for choice in choices if choice.reason}
 
 
+def factor(name: str) -> str:
+    """What a factor of the campaign is."""
+    return str(Factors.model_fields[name].description).rstrip(".")
+
+
 def alternatives(factors: Factors, choices: Mapping[str, Choice]) -> list[Choice]:
     """The factors of the campaign, the level of the reference study first."""
     return [
         Choice(
-            str(field.description).rstrip("."),
+            factor(name),
             tuple(str(level).replace("_", " ") for level in getattr(factors, name)),
             choices[f"campaign.factors.{name}"].reason,
         )
-        for name, field in Factors.model_fields.items()
+        for name in Factors.model_fields
     ]
 
 

@@ -10,7 +10,6 @@ from typing import Any
 import pandas as pd
 
 from replication.campaign.variants import variants
-from replication.config.campaign import Factors
 from replication.config.shipped import root_of
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
@@ -21,7 +20,7 @@ from replication.judgement.deviations import Deviations
 from replication.judgement.evidence import Evidence, NotMeasured
 from replication.judgement.findings import Finding, Number
 from replication.judgement.verdicts import Verdict
-from replication.pages.choices import Choice, alternatives, read_choices
+from replication.pages.choices import Choice, alternatives, factor, read_choices
 from replication.pages.formats import estimate, interval, percent, short
 from replication.pages.guidance import Benchmark
 from replication.pages.imprint import Imprint
@@ -156,8 +155,7 @@ class Contents:
         """The claims by their verdicts; those that were not measured come last."""
         found: dict[str, list[Judged]] = {name: [] for name in map(str, Verdict)}
         for claim in self.claims.values():
-            verdict = str(claim.finding.verdict) if claim.finding else NOT_MEASURED
-            found.setdefault(verdict, []).append(claim)
+            found.setdefault(claim.verdict, []).append(claim)
         return {name: claims for name, claims in found.items() if claims}
 
     @cached_property
@@ -219,7 +217,7 @@ class Contents:
 
     def factor(self, name: str) -> str:
         """What a factor of the campaign is, within a sentence."""
-        text = str(Factors.model_fields[name].description).rstrip(".")
+        text = factor(name)
         return text[0].lower() + text[1:]
 
     @cached_property
@@ -235,9 +233,8 @@ class Contents:
     @cached_property
     def benchmark(self) -> Benchmark:
         """What one should use today. Raises NotMeasured."""
-        plan = self.study.benchmark
-        errors, reached = map(self.evidence.table, ("benchmark.csv", "benchmark_moves.csv"))
-        return Benchmark(errors, reached, min(plan.thresholds), plan.moves)
+        tables = map(self.evidence.table, ("benchmark.csv", "benchmark_moves.csv"))
+        return Benchmark(self.study.benchmark, *tables)
 
     @cached_property
     def real(self) -> pd.DataFrame:

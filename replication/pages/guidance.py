@@ -1,14 +1,15 @@
 """Tables of the benchmark and of the real arm, as pages show them."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
+from replication.config.study import Benchmark as Plan
 from replication.pages.formats import short
 from replication.training.competitors import label_of, peers
-from replication.training.measured import BOTH, ERRORS, KINDS
+from replication.training.measured import BOTH, ERRORS
 
 HYBRID = "hybrid"
 WORSE = 1.1  # times the best peer's error is worse
@@ -24,7 +25,6 @@ class Worse(NamedTuple):
 
     scenario: str
     moves: int
-    kind: str
     ratio: float
 
 
@@ -32,22 +32,19 @@ class Benchmark:
     """What the benchmark found.
 
     Args:
+        plan: what was to be measured.
         errors: a row for each scenario, learner and budget of moves.
         reached: moves until errors are below a threshold, with their quantiles.
+
+    Attributes:
         threshold: in cm and degrees, for both errors.
-        budgets: of moves, that all of today's learners have.
     """
 
-    def __init__(
-        self,
-        errors: pd.DataFrame,
-        reached: pd.DataFrame,
-        threshold: float,
-        budgets: Collection[int],
-    ):
-        self.errors, self.threshold, self.budgets = errors, threshold, budgets
-        both = (reached["threshold"] == threshold) & (reached["error"] == BOTH)
+    def __init__(self, plan: Plan, errors: pd.DataFrame, reached: pd.DataFrame):
+        self.errors, self.threshold = errors, min(plan.thresholds)
+        both = (reached["threshold"] == self.threshold) & (reached["error"] == BOTH)
         self._reached = reached[both].set_index(["scenario", "learner"])
+        self._compared = [budget for budget in plan.moves if budget >= FIRST]
         self.learners = list(errors["learner"].unique())
         self.labels = [label_of(name) for name in self.learners]
         self.seeds = int(errors["seeds"].max())
@@ -63,19 +60,17 @@ class Benchmark:
     @property
     def worse(self) -> list[Worse]:
         """Comparisons in which another learner of today is better than the hybrid."""
-        errors = self.errors
-        counted = errors["moves"].isin([budget for budget in self.budgets if budget >= FIRST])
-        others = errors[counted & errors["learner"].isin({*peers()} - {HYBRID})]
-        hybrid = errors[counted & (errors["learner"] == HYBRID)]
+        errors = self.errors[self.errors["moves"].isin(self._compared)]
+        others = errors[errors["learner"].isin({*peers()} - {HYBRID})]
         comparisons = []
-        for row in hybrid.to_dict("records"):
+        for row in errors[errors["learner"] == HYBRID].to_dict("records"):
             same = (others["scenario"] == row["scenario"]) & (others["moves"] == row["moves"])
-            for error, kind in zip(ERRORS, KINDS, strict=True):
-                best = others[same][error].min()
-                if row[error] > max(WORSE * best, NEGLIGIBLE):
-                    comparisons.append(
-                        Worse(words(row["scenario"]), row["moves"], kind, row[error] / best)
-                    )
+            best = others.loc[same, list(ERRORS)].min()
+            comparisons += [
+                Worse(words(row["scenario"]), row["moves"], row[error] / best[error])
+                for error in ERRORS
+                if row[error] > max(WORSE * best[error], NEGLIGIBLE)
+            ]
         return comparisons
 
 

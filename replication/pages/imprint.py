@@ -48,20 +48,18 @@ def missing(project: Path = Path()) -> list[str]:
             f"pyproject.toml: Repository in [project.urls] is {imprint.repository!r}; expected:"
             " the address of the code, such as https://github.com/OWNER/recalib."
         )
-    for name, found in _elsewhere(project).items():
-        for field, value in found.items():
-            expected = _expected(imprint)[field]
-            if value != expected:
-                lacking.append(f"{name}: {field} is {value!r}; expected: {expected!r}.")
-    return lacking
-
-
-def _expected(imprint: Imprint) -> dict[str, Any]:
-    return {
+    expected = {
         "version": recalib.__version__,
         "authors": [*imprint.authors],
         "repository": imprint.repository,
     }
+    for name, found in _elsewhere(project).items():
+        lacking += [
+            f"{name}: {field} is {value!r}; expected: {expected[field]!r}."
+            for field, value in found.items()
+            if value != expected[field]
+        ]
+    return lacking
 
 
 def _elsewhere(project: Path) -> dict[str, dict[str, Any]]:

@@ -8,6 +8,7 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
+import yaml
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
@@ -61,8 +62,14 @@ def render(page: str, contents: Contents) -> str:
     )
     environment.filters["quoted"] = _quoted
     environment.globals |= {name: form for name, form in vars(formats).items() if callable(form)}
-    environment.globals["Figure"] = Figure
-    environment.globals |= {"on_real_arm": guidance.on_real_arm, "ends": guidance.ends_on_twin}
+    figures = yaml.safe_load((contents.project / TEMPLATES / "figures.yaml").read_text("utf-8"))
+    environment.globals |= {
+        "Figure": Figure,
+        "title": lambda figure: figures[figure.name]["title"],
+        "caption": lambda figure: figures[figure.name]["caption"].format(study=contents.study),
+        "on_real_arm": guidance.on_real_arm,
+        "ends": guidance.ends_on_twin,
+    }
     return environment.get_template(f"{page}.j2").render(results=contents, study=contents.study)
 
 

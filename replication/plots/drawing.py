@@ -15,14 +15,12 @@ from replication.plots.style import STYLE, save
 
 def drawn(figure: Figure, evidence: Evidence) -> matplotlib.figure.Figure:
     """A figure of a study's results. Raises NotMeasured."""
-    draw_figure = resolve_name(f"replication.plots.{figure.function}")
-    canvas: matplotlib.figure.Figure = draw_figure(evidence)
-    return canvas
+    return resolve_name(f"replication.plots.{figure.value}")(evidence)
 
 
 def draw(study: Study, figures: Sequence[Path]) -> None:
     """Draw figures into files, each of which has the name of one. Raises NotMeasured."""
-    evidence, by_name = Evidence(study, Path.cwd()), {figure.file: figure for figure in Figure}
+    evidence, by_name = Evidence(study), {figure.file: figure for figure in Figure}
     with plt.rc_context(STYLE):
         for name in dict.fromkeys(path.stem for path in figures):
             paths = [path for path in figures if path.stem == name]

@@ -1,7 +1,5 @@
 """Figures of learning: how both errors fall, and what remains by scenario and size of damage."""
 
-from collections.abc import Sequence
-
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
@@ -9,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from replication.judgement.evidence import Evidence
-from replication.plots.palette import BOTH, GREY, ErrorStyle, Training, styles_of_trainings
+from replication.plots.palette import BOTH, GREY, ErrorStyle, styles_of_trainings
 from replication.plots.style import (
     BAND,
     MARK,
@@ -22,7 +20,7 @@ from replication.plots.style import (
     words,
 )
 from replication.training.measured import ERRORS
-from replication.training.plan import Place, leading, places
+from replication.training.plan import leading, places
 
 NEAR = 1.4  # times: two numbers next to an axis that would stand on each other
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
@@ -109,13 +107,24 @@ def scenarios(evidence: Evidence) -> Figure:
     own = evidence.study.experiments.learners
     planned = places(evidence.study)
     trained = [place for place in planned if own.keys() <= planned[place].keys()]
+    names = [
+        words(place.scenario)
+        + (f",\non the {place.robot.upper()}" if place.robot != evidence.study.robot else "")
+        for place in trained
+    ]
     rows = np.arange(len(trained))[::-1]
     styles = styles_of_trainings((name, length) for name in own for length in own[name])
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(WIDTH, 1.4 + 0.34 * len(rows)))
     offsets = 0.24 * (np.arange(len(styles))[::-1] - (len(styles) - 1) / 2)
     for axes, error in zip(panels, BOTH, strict=True):
-        first = next(iter(styles))
-        before = [_at_end(evidence, first, place, error, first=True).mean() for place in trained]
+        histories = {
+            training: [
+                curves(evidence.history(*training, place.scenario, place.robot), error)
+                for place in trained
+            ]
+            for training in styles
+        }
+        before = [history.iloc[0].mean() for history in next(iter(histories.values()))]
         axes.scatter(
             np.maximum(before, FLOOR),
             rows,
@@ -126,7 +135,7 @@ def scenarios(evidence: Evidence) -> Figure:
             zorder=3,
         )
         for offset, (training, style) in zip(offsets, styles.items(), strict=True):
-            final = [_at_end(evidence, training, place, error) for place in trained]
+            final = [history.iloc[-1].to_numpy() for history in histories[training]]
             means = np.maximum([errors.mean() for errors in final], FLOOR)
             ends = np.maximum(np.percentile(final, BAND, axis=1), FLOOR)
             axes.hlines(rows + offset, *ends, color=style.color, linewidth=1.2)
@@ -135,25 +144,9 @@ def scenarios(evidence: Evidence) -> Figure:
         axes.set_xlabel(f"{error.kind} [{error.unit}]")
         logarithmic(axes.xaxis, 0.001, 0.1, 10)
         axes.set_xlim(FLOOR / 1.5, 30)
-        name_rows(axes, rows, _names(trained, evidence.study.robot))
+        name_rows(axes, rows, names)
     legend_below(figure, panels[0], 2)
     return figure
-
-
-def _at_end(
-    evidence: Evidence, training: Training, place: Place, error: ErrorStyle, first: bool = False
-) -> np.ndarray:
-    """An error (seed,) after a training, or before it."""
-    history = evidence.history(*training, place.scenario, place.robot)
-    return curves(history, error).iloc[0 if first else -1].to_numpy()
-
-
-def _names(trained: Sequence[Place], own: str) -> list[str]:
-    """Of each place in words: the robot's name if it is another one."""
-    return [
-        words(place.scenario) + (f",\non the {place.robot.upper()}" if place.robot != own else "")
-        for place in trained
-    ]
 
 
 def amounts(evidence: Evidence) -> Figure:

@@ -13,7 +13,6 @@ from replication.config.switches import IMPROVED, RITTER
 from replication.judgement.claims.section_7 import PUBLISHED
 from replication.judgement.contrasts import SHARES, Crossing, Remaining, Values
 from replication.judgement.evidence import Evidence
-from replication.judgement.hierarchy import Model
 from replication.plots.palette import BORDER, GREY, NEUTRAL, STYLES, Style
 from replication.plots.style import MARK, WIDTH, logarithmic, name_right, name_rows, note, spread
 
@@ -63,7 +62,10 @@ def steps(evidence: Evidence) -> Figure:
     above.axhline(level, color=STEPS[IMPROVED].color, linewidth=0.8)
     above.set_ylabel("larger remaining\nshare [%]")
     logarithmic(above.yaxis, 1, 2, 5, 10, 20, 50, 100)
-    _draw_published(own * PUBLISHED, above, below)
+    for axes in (above, below):
+        axes.axvline(own * PUBLISHED, linestyle=(0, (4, 3)), **BORDER)
+    font = {"xycoords": ("data", "axes fraction"), "va": "top", "color": GREY}
+    note(above, f"the paper:\n{PUBLISHED}×", (own * PUBLISHED, 1), (3, 0), **font)
     return figure
 
 
@@ -71,14 +73,6 @@ def _draw_errors(axes: Axes, rows: pd.DataFrame, style: Style) -> None:
     """The larger share that remains of both errors, against the iterations of a training."""
     shares = np.log(100 * rows[SHARES].max(axis=1)).groupby(rows["iterations"]).mean()
     axes.plot(shares.index, np.exp(shares), markersize=3.5, marker=style.marker, **style.line())
-
-
-def _draw_published(iterations: float, above: Axes, below: Axes) -> None:
-    for axes in (above, below):
-        axes.axvline(iterations, linestyle=(0, (4, 3)), **BORDER)
-    at = iterations, 1
-    font = {"xycoords": ("data", "axes fraction"), "va": "top", "color": GREY}
-    note(above, f"the paper:\n{PUBLISHED}×", at, (3, 0), **font)
 
 
 def _needed(values: Values, own: int) -> tuple[np.ndarray, int]:
@@ -97,7 +91,7 @@ def _in_words(needed: float, own: int, bound: int = 0) -> str:
 
 def _draw_setups(axes: Axes, setups: Values, own: int) -> float:
     """Iterations in all setups, and where one more study would lie. Returns their mean."""
-    model: Model = setups.model()
+    model = setups.model()
     beyond = (setups.bounds.max(axis=1) > 0).to_numpy()
     heights = 0.15 + spread(len(beyond))
     for mask, marker in ((~beyond, "."), (beyond, ">")):

@@ -71,17 +71,12 @@ def save(figure: Figure, *paths: str | Path) -> None:
     plt.close(figure)
 
 
-def plain(axis: Axis, *ticks: float) -> None:
-    """Label an axis at these values alone, as plain numbers."""
+def logarithmic(axis: Axis, *ticks: float) -> None:
+    """Make an axis logarithmic, and label it at these values alone, as plain numbers."""
+    (axis.axes.set_xscale if axis is axis.axes.xaxis else axis.axes.set_yscale)(LOG)
     axis.set_major_locator(FixedLocator(ticks))
     axis.set_major_formatter(StrMethodFormatter("{x:,g}"))
     axis.set_minor_locator(NullLocator())
-
-
-def logarithmic(axis: Axis, *ticks: float) -> None:
-    """Make an axis logarithmic, and label it at these values."""
-    (axis.axes.set_xscale if axis is axis.axes.xaxis else axis.axes.set_yscale)(LOG)
-    plain(axis, *ticks)
 
 
 def name_rows(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> None:

@@ -63,7 +63,7 @@ rule pages:
         FINDINGS,
         "pyproject.toml",
         # relative: a project that was moved does not begin again
-        templates=[os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],
+        templates=[os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*"))],
         figures=FIGURES,
     output:
         pages=PAGES,
