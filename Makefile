@@ -36,7 +36,7 @@ quick: study ## a small replication, in two minutes with its set-up: results/stu
 
 study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
 	$(NO_SUCH)
-	@.venv/bin/python -m replication.running.readable $(STUDY_FILE)
+	@.venv/bin/python -m replication.config.reading $(STUDY_FILE)
 	$(SNAKEMAKE) $(BRIEFLY)
 
 setup: .venv/installed ## the environment of the studies, from requirements.lock

@@ -33,6 +33,16 @@ def describe(entry: Entry) -> dict[str, Any]:
     return _ENTRY.dump_python(entry, mode="json")
 
 
+def link_of(entry: Entry) -> str:
+    """The link that a damage is at; empty if it is at none."""
+    return getattr(entry, "link", "")
+
+
+def joint_of(entry: Entry) -> str:
+    """The joint that a damage is at; empty if it is at none."""
+    return getattr(entry, "joint", "") or getattr(entry, "encoder", "")
+
+
 def damages_among(entries: Iterable[Entry]) -> list[Damage]:
     """The damages of a scenario's entries."""
     return [entry for entry in entries if isinstance(entry, Damage)]

@@ -1,5 +1,10 @@
-"""From configuration files to a study."""
+"""From configuration files to a study.
 
+`python -m replication.config.reading FILE` says why a file is not a study: Snakemake reads it
+before the project does, and names no file when it cannot.
+"""
+
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import reduce
 from os import PathLike
@@ -65,3 +70,10 @@ def _at_its_place(
         lines.setdefault((tuple(place), mistake.fault), mistake)
     ordered = sorted(lines.items(), key=lambda line: line[0][0])
     return InvalidConfiguration([f"{shown(place)}: {mistake}" for (place, _), mistake in ordered])
+
+
+if __name__ == "__main__":
+    try:
+        from_file(sys.argv[1])
+    except InvalidConfiguration as error:
+        sys.exit(str(error))

@@ -22,11 +22,7 @@ class NotMeasured(RecalibError):
 
 
 class Evidence:
-    """Results of a study; what it lacks raises NotMeasured.
-
-    Args:
-        project: the folder of the project.
-    """
+    """Results of a study in a folder of the project; what it lacks raises NotMeasured."""
 
     def __init__(self, study: Study, project: Path = Path()):
         self.study, self._project = study, project
@@ -98,9 +94,9 @@ class Evidence:
         """One of the tables of the mapping."""
         return self.table(f"mapping/{name}.parquet")
 
-    def scenario(self, name: str | None = None) -> dict[str, Any]:
-        """A scenario as resolved."""
-        place = Place(self.study.robot, name or self.study.scenario)
+    def scenario(self) -> dict[str, Any]:
+        """The study's own scenario as resolved."""
+        place = Place(self.study.robot, self.study.scenario)
         return json.loads((self._project / place.scenario_file(self._root)).read_text("utf-8"))
 
 

@@ -110,11 +110,12 @@ def spread(
     model: Model, unsettled: int, shares: dict[Verdict, float], factor: str | None
 ) -> Spread:
     """How a number differs from setup to setup."""
+    between, luck = (Estimate(*map(rounded, its)) for its in (model.heterogeneity, model.luck))
     return Spread(
-        between=rounded(model.heterogeneity.mean),
-        between_interval=(rounded(model.heterogeneity.low), rounded(model.heterogeneity.high)),
-        luck=rounded(model.luck.mean),
-        luck_interval=(rounded(model.luck.low), rounded(model.luck.high)),
+        between=between.mean,
+        between_interval=between[1:],
+        luck=luck.mean,
+        luck_interval=luck[1:],
         setups=len(model.numbers),
         unsettled=unsettled,
         shares={str(verdict): rounded(share) for verdict, share in shares.items()},

@@ -2,20 +2,23 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 import pinocchio as pin
 import rerun as rr
 
-from recalib.damaged.damage import Damage, apply
+from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.laboratory.scene import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
+from recalib.nominal.robots import Robot
+from replication.config.damages import joint_of, link_of
 from replication.recording.colours import DAMAGE, NOMINAL
-from replication.recording.markers import base_shift, circle, markers
 from replication.recording.scene import ASSUMED, REAL, Scene, send_gripper
 
 BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `Scene.unit`
 FOOT = 0.7  # radius of the circle about a base that was moved
+AXIS = 0.5  # half the length of the axis that is drawn through a damaged joint
 
 
 def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
@@ -31,8 +34,9 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
     if missing:
         raise InvalidFile(robot.urdf, f"mesh {missing[0]!r} is in none of its packages and folders")
     clock, standing = motion.clock(), damaged.standing(motion.angles)
-    found = markers(robot, damages, unit)
-    links = dict.fromkeys([*visuals, *(marker.link for marker in found)])
+    moved = {number: link for link, number in robot.links.items()}  # by the joint that moves them
+    joints = {joint: robot.joints.index(joint) for joint in map(joint_of, damages) if joint}
+    links = dict.fromkeys([*visuals, *(moved[1 + index] for index in joints.values())])
     for link, poses in link_placements(damaged.arm, links, standing, base).items():
         send_frame(rec, f"{learner}/links/{link}", f"{learner}/{link}", clock, poses)
     reached, assumed = damaged.arm.forward(standing), robot.arm.forward(motion.angles)
@@ -44,14 +48,13 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
     scene.send("nominal/bones", clock, rr.LineStrips3D.columns(strips=bones))
     scene.log("nominal/bones", rr.LineStrips3D.from_fields(colors=NOMINAL, radii=BONE * unit))
     scene.log("nominal/joints", rr.Points3D.from_fields(colors=NOMINAL, radii=JOINT * unit))
-    for marker in found:
-        if marker.axis is None:
-            for mesh in visuals.get(marker.link, ()):
-                rec.log(mesh, rr.Asset3D.from_fields(albedo_factor=DAMAGE), static=True)
-        else:
-            axis = rr.LineStrips3D([marker.axis], radii=BONE * unit / 2, colors=DAMAGE)
-            frame = rr.CoordinateFrame(f"{learner}/{marker.link}")
-            scene.log(f"damage/{marker.part}", axis, frame)
+    for link in map(link_of, damages):
+        for mesh in visuals.get(link, ()):
+            rec.log(mesh, rr.Asset3D.from_fields(albedo_factor=DAMAGE), static=True)
+    for joint, index in joints.items():
+        reach = AXIS * unit * robot.arm.axes[index]
+        axis = rr.LineStrips3D([[-reach, reach]], radii=BONE * unit / 2, colors=DAMAGE)
+        scene.log(f"damage/{joint}", axis, rr.CoordinateFrame(f"{learner}/{moved[1 + index]}"))
     if not base.isIdentity():
         for name, at, colour in (
             ("nominal", pin.SE3.Identity(), NOMINAL),
@@ -59,3 +62,17 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
         ):
             strips = [circle(at, FOOT * unit)]
             scene.log(f"{name}/base", rr.LineStrips3D(strips, radii=BONE * unit / 2, colors=colour))
+
+
+def base_shift(robot: Robot, damages: Sequence[Damage]) -> pin.SE3:
+    """How the base of the damaged robot stands in the frame of the nominal one."""
+    shifts = apply(robot, [damage for damage in damages if isinstance(damage, BaseShift)])
+    first = robot.arm.model.jointPlacements[1]
+    return shifts.arm.model.jointPlacements[1] * first.inverse()
+
+
+def circle(placement: pin.SE3, radius: float) -> np.ndarray:
+    """A circle (point, 3) [m] about the z axis of a placement."""
+    angles = np.linspace(0, 2 * np.pi, 49)
+    flat = radius * np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
+    return flat @ placement.rotation.T + placement.translation

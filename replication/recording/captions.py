@@ -4,9 +4,8 @@ import importlib.metadata
 from typing import Any
 
 from recalib.damaged.damage import EncoderShift, LinkShortening
-from replication.config.damages import Entry, damages_among, describe
+from replication.config.damages import Entry, damages_among, describe, joint_of, link_of
 from replication.recording import colours
-from replication.recording.markers import joint_of, link_of
 from replication.recording.watched import Watched
 from replication.scenarios.plants import Resolved
 from replication.training.measured import ERRORS

@@ -25,10 +25,8 @@ DIGITS = 12  # of placements: machines differ in how they round sines
 def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path) -> str:
     """A script that defines STUDY: robot, damage, learner and poses; lengths in m, angles in rad.
 
-    Args:
-        scenario: file of the study's own scenario, which has links short and encoders shifted.
-        settings: files with widths and rates.
-        history: file of the improved system's trainings there.
+    The study's own scenario has links short and encoders shifted; the history is that of the
+    improved system's trainings there.
     """
     resolved, iterations = Resolved.read(scenario), leading(study).iterations
     seed, tests = typical_seed(recorded_history(study, history)), study.training.tests

@@ -35,11 +35,11 @@ def send_map(scene: Scene) -> None:
 
     Their corrections are true to scale.
     """
-    cells, unit = scene.watched.cells, scene.unit
+    watched, unit = scene.watched, scene.unit
     _, rows = scene.motion.measurements()
-    points = rr.Points3D.columns(radii=(0.022 + 0.038 * cells.weights[rows].ravel()) * unit)
-    cell = rr.Points3D(cells.centres, colors=NOMINAL)
-    scene.show("map/cells", points, len(cells.centres), cell)
-    arrows = rr.Arrows3D.columns(vectors=cells.corrections[rows].reshape(-1, 3))
-    arrow = rr.Arrows3D.from_fields(origins=cells.centres, radii=0.011 * unit, colors=NOMINAL)
-    scene.show("map/corrections", arrows, len(cells.centres), arrow)
+    points = rr.Points3D.columns(radii=(0.022 + 0.038 * watched.weights[rows].ravel()) * unit)
+    cell = rr.Points3D(watched.centres, colors=NOMINAL)
+    scene.show("map/cells", points, len(watched.centres), cell)
+    arrows = rr.Arrows3D.columns(vectors=watched.corrections[rows].reshape(-1, 3))
+    arrow = rr.Arrows3D.from_fields(origins=watched.centres, radii=0.011 * unit, colors=NOMINAL)
+    scene.show("map/corrections", arrows, len(watched.centres), arrow)

@@ -78,7 +78,7 @@ def _visits(start: np.ndarray, stops: np.ndarray, progress: np.ndarray) -> np.nd
     """Angles (stop x frame, joint) of smooth moves from `start` from stop to stop (stop, joint).
 
     Args:
-        done: (frame,) of each way, in [0, 1], if the arm moved evenly.
+        progress: (frame,) of each way, in [0, 1], if the arm moved evenly.
     """
     eased = (progress**2 * (3 - 2 * progress))[:, None]  # at rest at both ends
     starts = np.concatenate([start[None], stops[:-1]])[:, None]

@@ -26,7 +26,6 @@ from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved
 from replication.training.measured import ERRORS
 from replication.training.plan import leading
-from replication.training.poses import Stream
 from replication.training.tuned import Tuned
 
 
@@ -39,11 +38,7 @@ def record(
 ) -> None:
     """Write a recording of each scenario: of the typical training of the learner of Figure 1.
 
-    Args:
-        scenarios: files of the scenarios, those of `recorded_places`.
-        settings: files with widths and rates.
-        histories: files of the learner's trainings, one for each scenario.
-        recordings: files that are written, one for each scenario.
+    Scenarios, histories and recordings are files, one for each of the `recorded_places`.
 
     Raises InvalidFile: a mesh of the robot is not found, or a history says something else than
     what was watched.
@@ -52,22 +47,9 @@ def record(
     for file, path, rrd in zip(scenarios, histories, recordings, strict=True):
         resolved, table = Resolved.read(file), recorded_history(study, path)
         seed = typical_seed(table)
-        watched = watch_training(study, resolved, tuned, seed)
+        watched = watch(study, resolved, tuned, seed)
         _compare(path, watched, table[table["seed"] == seed])
         write_recording(rrd, resolved, leading(study).learner, watched)
-
-
-def watch_training(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
-    """The training with a seed."""
-    (learner, iterations, _), controller = leading(study), resolved.controller()
-    tests, scenario = study.training.tests, resolved.scenario
-    return watch(
-        controller,
-        resolved.plant(controller, study.seed, [seed]),
-        tuned.learner(learner, iterations, 1),
-        Stream.SCENARIO.draw(study.seed, [seed], iterations, tests, scenario=scenario),
-        study.training.during(iterations),
-    )
 
 
 def _compare(path: Path, watched: Watched, history: pd.DataFrame) -> None:

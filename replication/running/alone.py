@@ -5,7 +5,6 @@ Each folder also knows which of Snakemake's notes say from what its results were
 
 import fcntl
 import os
-from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 from uuid import uuid4
@@ -26,16 +25,14 @@ def check_writable(folder: str) -> None:
         raise RecalibError(f"nothing can be written in {existing}; try: a copy of the project")
 
 
-def check_known(folders: Iterable[str]) -> None:
+def check_known(folder: str) -> None:
     """Raise RecalibError for results whose notes were deleted, or left elsewhere."""
-    identity = _read(NOTES)
-    for folder in folders:
-        if _read(f"{folder}/{MARK}") not in ("", identity):
-            raise RecalibError(
-                f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can"
-                f" say whether it is up to date; try: remove {folder}, or, if nothing was changed"
-                f" since, {folder}/{MARK}"
-            )
+    if _read(f"{folder}/{MARK}") not in ("", _read(NOTES)):
+        raise RecalibError(
+            f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can"
+            f" say whether it is up to date; try: remove {folder}, or, if nothing was changed"
+            f" since, {folder}/{MARK}"
+        )
 
 
 def _read(path: str) -> str:
@@ -55,28 +52,22 @@ def _identity() -> str:
         return identity
 
 
-def hold(folders: Iterable[str]) -> None:
-    """Keep other runs out of these folders until this process ends, tidy them up, and note whose
-    they are.
+def hold(folder: str) -> None:
+    """Keep other runs out of a folder until this process ends, tidy it up, and note whose it is.
 
-    The system lets go of them, however the process ends. Raises RecalibError: another run has one.
+    The system lets go of it, however the process ends. Raises RecalibError: another run has it.
     """
-    for folder in folders:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        mark = os.open(Path(folder, MARK), os.O_WRONLY | os.O_CREAT, 0o666)  # held to the end
-        try:
-            fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            os.close(mark)
-            busy = f"another run is at work in {folder}: wait until it has ended"
-            raise RecalibError(busy) from None
-        os.truncate(mark, 0)
-        os.write(mark, _identity().encode("ascii"))
-        sweep(folder)
-
-
-def sweep(folder: str) -> None:
-    """Remove what a killed run left in the making."""
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    mark = os.open(Path(folder, MARK), os.O_WRONLY | os.O_CREAT, 0o666)  # held to the end
+    try:
+        fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(mark)
+        busy = f"another run is at work in {folder}: wait until it has ended"
+        raise RecalibError(busy) from None
+    os.truncate(mark, 0)
+    os.write(mark, _identity().encode("ascii"))
+    # remove what a killed run left in the making
     for path, folders, files in os.walk(folder):
         if path == folder and OTHERS in folders:
             folders.remove(OTHERS)

@@ -12,17 +12,8 @@ from replication.training.poses import Stream, train_for_results
 from replication.training.tuned import Tuned
 
 
-def measured_at(budgets: Sequence[int], iterations: int, moves: int) -> list[int]:
-    """Iterations, of so many moves each, after which the moves meet one of the budgets."""
-    met = (budget for budget in budgets if budget % moves == 0)
-    return [budget // moves for budget in met if budget <= iterations * moves]
-
-
 def compete(study: Study, learner: str, settings: Sequence[Path]) -> pd.DataFrame:
     """Let a learner work through the scenarios of the benchmark, in each of them anew.
-
-    Args:
-        settings: files with widths and rates, for a learner of the paper.
 
     Returns a row for each scenario, seed and budget of moves.
     """
@@ -30,7 +21,11 @@ def compete(study: Study, learner: str, settings: Sequence[Path]) -> pd.DataFram
     papers = learner in plan.papers
     moves_each = MOVES if papers else 1
     iterations = plan.papers[learner] if papers else max(plan.moves)
-    budgets = measured_at([*plan.moves, *plan.longer], iterations, moves_each)
+    budgets = [
+        moves // moves_each
+        for moves in (*plan.moves, *plan.longer)
+        if moves % moves_each == 0 and moves <= iterations * moves_each
+    ]
     for scenario in resolve(study, study.robot, plan.scenarios)[0]:
         controller = scenario.controller()
         competitor = (

@@ -39,9 +39,6 @@ def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> It
 def train_ensemble(study: Study, settings: Sequence[Path]) -> pd.DataFrame:
     """Train the improved system on the ensemble's robots.
 
-    Args:
-        settings: files with widths and rates.
-
     Returns a row for each draw and scale, with both errors before and after learning.
     """
     nominal, plan = nominal_of(study, study.robot), study.experiments

@@ -39,11 +39,10 @@ def places(study: Study) -> dict[Place, Lengths]:
         names = (name for switch in SWITCHES for name in (switch.without, switch.added))
         more += [(name, (plan.iterations,)) for name in names]
     for name, lengths in more:
-        if not lengths:
-            continue
-        own_learners[name] = tuple(sorted({*own_learners.get(name, ()), *lengths}))
+        if lengths:
+            own_learners[name] = (*own_learners.get(name, ()), *lengths)
     return {
-        place: {name: tuple(sorted(iterations)) for name, iterations in lengths.items()}
+        place: {name: tuple(sorted({*iterations})) for name, iterations in lengths.items()}
         for place, lengths in planned.items()
     }
 

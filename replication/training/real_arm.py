@@ -113,7 +113,6 @@ def learn(
 
     Args:
         description: file of what these tables do not say themselves.
-        settings: files with widths and rates, for a learner of the paper.
 
     Returns a row for each number of poses, or of moves on the twin, and random subset of them, with
     the mean error in mm.

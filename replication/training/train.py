@@ -29,8 +29,6 @@ def train(
     The poses of a seed are the same for all of them.
 
     Args:
-        resolved: file of the scenario.
-        settings: files with widths and rates.
         histories, learned: files that are written, one for each learner in the order of the plan.
     """
     place, tuned = Place(robot, scenario), Tuned(study, settings)

@@ -23,7 +23,7 @@ def killed_while_writing(path):
 
 def held_elsewhere(folder, answers):
     try:
-        answers.put(hold([folder]))
+        answers.put(hold(folder))
     except RecalibError as error:
         answers.put(str(error))
 
@@ -52,7 +52,7 @@ def results(tmp_path):
 
 def test_what_a_killed_run_left_is_swept_up_and_nothing_else(results):
     assert len(list(results.rglob(".*"))) == 2
-    hold([str(results)])
+    hold(str(results))
     remaining = {str(path.relative_to(results)) for path in results.rglob("*") if path.is_file()}
     (elsewhere,) = (results / "studies/b/runs").iterdir()
     assert remaining == {"runs/b.parquet", MARK, str(elsewhere.relative_to(results))}
@@ -62,7 +62,7 @@ def test_a_folder_is_held_until_the_process_ends(tmp_path):
     context = multiprocessing.get_context("spawn")
     answers = context.Queue()
     mine, ours = str(tmp_path / "mine"), str(tmp_path / "ours")
-    hold([ours])
+    hold(ours)
     busy = f"another run is at work in {ours}: wait until it has ended"
     for folder, expected in ((mine, None), (mine, None), (ours, busy)):
         process = context.Process(target=held_elsewhere, args=(folder, answers))
@@ -74,18 +74,18 @@ def test_a_folder_is_held_until_the_process_ends(tmp_path):
 def test_results_without_notes_and_folders_that_are_read_only_are_refused(
     tmp_path, notes, monkeypatch
 ):
-    check_known(["results"])
-    hold(["results"])
-    check_known(["results"])
+    check_known("results")
+    hold("results")
+    check_known("results")
     shutil.rmtree(notes)
     with pytest.raises(RecalibError, match="^results was .*try: remove results, or, if nothing"):
-        check_known(["elsewhere", "results"])
+        check_known("results")
     notes.mkdir()
-    hold(["other"])  # notes of other runs say as little
+    hold("other")  # notes of other runs say as little
     with pytest.raises(RecalibError):
-        check_known(["other", "results"])
+        check_known("results")
     (tmp_path / "results" / MARK).unlink()
-    check_known(["other", "results"])
+    check_known("results")
     new = str(tmp_path / "new")
     check_writable(new)
     check_writable(str(tmp_path))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.running import readable, study_of
+from replication.running import study_of
 from replication.training import Place, places
 from tests.conftest import ROOT, copy_project
 from tests.project import Project
@@ -71,10 +71,11 @@ def test_a_file_that_snakemake_cannot_read_is_named(text, message, project, monk
     monkeypatch.chdir(project)
     Path("my_leg.yaml").write_text(text, encoding="utf-8")
     commands = make(project, "study", "STUDY=my_leg").stdout
-    assert "-m replication.running.readable my_leg.yaml\n" in commands
-    with pytest.raises(SystemExit, match=rf"^my_leg\.yaml:{re.escape(message)}"):
-        readable.main("my_leg.yaml")
-    readable.main("my_arm.yaml")
+    reading = "-m replication.config.reading"
+    assert f"{reading} my_leg.yaml\n" in commands
+    for name, says in (("my_leg.yaml", f"my_leg.yaml:{message}\n"), ("my_arm.yaml", "")):
+        command = [sys.executable, *reading.split(), name]
+        assert subprocess.run(command, capture_output=True, text=True).stderr == says
 
 
 @pytest.mark.slow

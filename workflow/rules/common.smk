@@ -28,7 +28,7 @@ try:
     )
     RESULTS = root_of(STUDY.name)
     check_writable(".snakemake")
-    check_known([RESULTS])
+    check_known(RESULTS)
 except RecalibError as error:
     sys.exit(str(error))  # an exception would be reported with this file and line, which are right
 
@@ -55,6 +55,6 @@ def room(mem_mb, runtime):
 
 onstart:
     try:
-        hold([RESULTS])
+        hold(RESULTS)
     except RecalibError as error:
         raise WorkflowError(str(error)) from None

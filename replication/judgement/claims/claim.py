@@ -10,7 +10,7 @@ from replication.config.shipped import FEWEST
 from replication.judgement.contrasts import Estimand, Values
 from replication.judgement.effects import strongest
 from replication.judgement.evidence import Evidence, NotMeasured
-from replication.judgement.findings import Finding, Number, number, spread
+from replication.judgement.findings import Finding, Number, Spread, number, spread
 from replication.judgement.verdicts import RATIO, Comparison, Verdict
 
 
@@ -37,24 +37,12 @@ class Statement:
     published: str | None = None
 
     def finding(
-        self, verdict: Verdict, *estimates: Number, note: str = "", **more: object
+        self, verdict: Verdict, *estimates: Number, note: str = "", spread: Spread | None = None
     ) -> Finding:
         """What was found about it."""
-        return Finding.model_validate(
-            {
-                "id": self.id,
-                "section": self.section,
-                "statement": self.words,
-                "claim": self.claim,
-                "published": self.published,
-                "criterion": self.criterion,
-                "estimates": estimates,
-                "spread": None,
-                "verdict": verdict,
-                "note": note,
-            }
-            | more
-        )
+        stated = {name: value for name, value in vars(self).items() if name in Finding.model_fields}
+        found = {"verdict": verdict, "estimates": estimates, "note": note, "spread": spread}
+        return Finding(statement=self.words, **stated, **found)
 
 
 @dataclass(frozen=True)
