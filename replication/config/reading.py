@@ -58,11 +58,7 @@ def placed(source: Source) -> Placed:
 def _at_its_place(
     mistakes: Iterable[Mistake], whole: Placed, own: Sequence[str]
 ) -> InvalidConfiguration:
-    """The mistakes where they stand, in that order; what many uses of an anchor share, once.
-
-    Args:
-        own: the user's own sources, at which mistakes are reported.
-    """
+    """The mistakes at the user's `own` sources, in order; what uses of an anchor share, once."""
     lines: dict[tuple[Place, str], Mistake] = {}
     for mistake in mistakes:
         places = [whole.at(path).place for path in (mistake.path, *mistake.also)]

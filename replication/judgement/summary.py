@@ -14,11 +14,7 @@ from replication.training.plan import places
 
 
 def summarise(study: Study, histories: Sequence[Path]) -> pd.DataFrame:
-    """A row for each place, learner and number of iterations.
-
-    Args:
-        histories: files, one for each learner of each place, in the order of the plan.
-    """
+    """A row for each place, learner and number of iterations; histories are files in that order."""
     files, rows = iter(histories), []
     for place, learners in places(study).items():
         for learner, lengths in learners.items():

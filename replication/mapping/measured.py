@@ -23,9 +23,7 @@ from replication.training.tuned import Tuned, rules_of
 def measure(study: Study, scenarios: Sequence[Path], own: Path) -> tuple[pd.DataFrame, ...]:
     """Coupling, nearness, propagation, quantisation, solutions and visits: without a learner.
 
-    Args:
-        scenarios: files of the scenarios of the study's robot, as resolved.
-        own: that of the study's own, the paper's damage.
+    The files are scenarios of the study's robot, and its own one, the paper's damage.
     """
     plan, seed, resolved = study.mapping, study.seed, [Resolved.read(path) for path in scenarios]
     damage = Resolved.read(own)
@@ -40,12 +38,7 @@ def measure(study: Study, scenarios: Sequence[Path], own: Path) -> tuple[pd.Data
 
 
 def learn(study: Study, own: Path, settings: Sequence[Path]) -> tuple[pd.DataFrame, ...]:
-    """Replay and widths: what the improved system learns from a table, and with constant widths.
-
-    Args:
-        own: file of the study's own scenario as resolved, the paper's damage.
-        settings: files with widths and rates.
-    """
+    """Replay and widths: what the improved system learns from a table, and with constant widths."""
     damage, iterations = Resolved.read(own), study.experiments.iterations
     tuned = Tuned(study, settings)
     return (

@@ -76,10 +76,6 @@ def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
 def propagation(resolved: Resolved, plan: Mapping, seed: int) -> pd.DataFrame:
     """The integrals in balls about random centres, from slight to large damage.
 
-    Args:
-        resolved: the paper's damage.
-        plan: how many balls, of how many points, how large, and the scales of the damage.
-
     Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
     kind (theta, jacobian) and ball, with the columns of `propagation_errors`.
     """

@@ -21,10 +21,8 @@ def visits(
 ) -> pd.DataFrame:
     """Simulated L over the one of (10), for cells at these distances from a face of the workspace.
 
-    Args:
-        widths: of the neighbourhood, in workspace coordinates.
-        distances: of the cell to the nearest face, 1 being the centre of the workspace [-1, 1]^3.
-        samples: winners drawn.
+    Widths are those of the neighbourhood, samples the winners drawn. At a distance of 1 is the
+    centre of the workspace [-1, 1]^3.
     """
     winners = generator(seed, "visits").uniform(-1, 1, (samples, DIMENSIONS))
     rows = []

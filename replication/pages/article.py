@@ -11,10 +11,7 @@ from recalib.files.storage import whole
 def typeset(source: Path, article: Path, project: Path = Path()) -> None:
     """Write the article as a PDF, tagged for screen readers, with the fonts of its figures alone.
 
-    Args:
-        source: in Typst, below the project's folder.
-        article: the PDF.
-        project: where paths in the source begin.
+    Paths in its source in Typst begin in the project's folder.
 
     Raises typst.TypstError: a reference, a figure or a sign that Typst does not know.
     """

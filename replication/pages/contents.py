@@ -106,12 +106,7 @@ class Judged:
 
 
 class Contents:
-    """Everything that a template can show; it is computed when a page asks for it.
-
-    Args:
-        figures: files of figures that a page may show.
-        project: the folder of the project.
-    """
+    """Everything that a template can show, with figures in files; computed when a page asks."""
 
     def __init__(self, study: Study, figures: Iterable[Path] = (), project: Path = Path()):
         self.study, self.project = study, project

@@ -29,16 +29,7 @@ class Worse(NamedTuple):
 
 
 class Benchmark:
-    """What the benchmark found.
-
-    Args:
-        plan: what was to be measured.
-        errors: a row for each scenario, learner and budget of moves.
-        reached: moves until errors are below a threshold, with their quantiles.
-
-    Attributes:
-        threshold: in cm and degrees, for both errors.
-    """
+    """What the benchmark found, from its two tables. The threshold is in cm and degrees."""
 
     def __init__(self, plan: Plan, errors: pd.DataFrame, reached: pd.DataFrame):
         self.errors, self.threshold = errors, min(plan.thresholds)
@@ -90,11 +81,7 @@ def _moves(reached: pd.Series) -> str:
 
 
 def on_real_arm(table: pd.DataFrame, poses: Sequence[int]) -> Table:
-    """Mean position errors [mm]: a row for each learner, a cell for each number of poses.
-
-    Args:
-        table: a row for each learner and number of poses, or of moves on the twin.
-    """
+    """Mean position errors [mm]: a row for each learner, a cell for each number of poses."""
     named = table.assign(label=[*map(_named, table["learner"], table["twin"])])
     errors = named.pivot(index="label", columns="poses", values="position_error_mm")
     shown = errors.reindex(named["label"].unique(), columns=poses)

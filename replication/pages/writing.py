@@ -23,17 +23,9 @@ MARKUP = re.compile(r"[\\*_`$#@<>\[\]~]|//")  # of Typst: in a result it is text
 
 
 def write(
-    study: Study,
-    pages: Sequence[Path],
-    figures: Sequence[Path] = (),
-    project: Path = Path(),
+    study: Study, pages: Sequence[Path], figures: Sequence[Path] = (), project: Path = Path()
 ) -> None:
-    """Write pages, each from the template of its name.
-
-    Args:
-        figures: of the study; a page shows those that it knows.
-        project: the folder of the project.
-    """
+    """Write pages, each from the template of its name; it shows those of the figures it knows."""
     contents = Contents(study, figures, project)
     for path in pages:
         text = render(path.name, contents)

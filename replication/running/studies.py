@@ -86,12 +86,8 @@ def study_of(
 def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
     """What a source lays over config.yaml: first the study that it is `like`, then what it says.
 
-    A study that is like another one has no bands, and is called like its file, unless it says so.
-
-    Args:
-        known: files of the studies that another one may be like.
-
-    Raises InvalidConfiguration.
+    A study that is like another one, which is among the files known, has no bands, and is called
+    like its file, unless it says so. Raises InvalidConfiguration.
     """
     layer = placed(source)
     if LIKE not in layer.content:

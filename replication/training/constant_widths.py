@@ -32,9 +32,7 @@ def halved_after(
 ) -> np.ndarray:
     """Iterations (run,) after which both errors are halved; all of them where they never are.
 
-    Args:
-        rates: (run,) learning rates.
-        seed: of the robots.
+    Runs have learning rates (run,) of their own; the seed is that of the robots.
     """
     schedule = Schedule(width, dict.fromkeys(rules.maps, (width, width)), rates, rates)
     learner = HierarchicalLearner(rules, schedule, runs=len(rates))

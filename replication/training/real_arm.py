@@ -109,10 +109,8 @@ def learn(
 ) -> pd.DataFrame:
     """Let a learner learn from poses in `fit`, and test it on those in `test`.
 
-    One that chooses its poses itself learns on a twin, identified from all poses in `fit`.
-
-    Args:
-        description: file of what these tables do not say themselves.
+    One that chooses its poses itself learns on a twin, identified from all poses in `fit`. The
+    description is a file of what these tables do not say themselves.
 
     Returns a row for each number of poses, or of moves on the twin, and random subset of them, with
     the mean error in mm.

@@ -15,11 +15,7 @@ from replication.training.poses import Stream
 def replay(
     resolved: Resolved, make_learner: Callable[[], HierarchicalLearner], iterations: int, seed: int
 ) -> pd.DataFrame:
-    """For each array that the learner holds, the largest difference between both teachers.
-
-    Args:
-        make_learner: makes one of a single run that has learned nothing.
-    """
+    """For each array of a learner of one run, the largest difference between both teachers."""
     plant = resolved.plant(resolved.controller(), seed, [0])
     desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired
     table: dict[bytes, Outcome] = {}

@@ -12,10 +12,7 @@ from replication.training.plan import places
 
 
 def write_scenarios(study: Study, resolved: Sequence[Path]) -> pd.DataFrame:
-    """Resolve the scenarios of all places of the plan.
-
-    Args:
-        resolved: files that are written, one for each place.
+    """Resolve the scenarios of all places of the plan, each into its file.
 
     Returns every assignment of the paper's damage to the study's own robot; see `resolve`.
     """
