@@ -12,17 +12,11 @@ BATCHES = 3  # of rows; the second and third replace what a robot refuses
 
 
 class Row(NamedTuple):
-    """A row of the design.
+    """A row of the design."""
 
-    Attributes:
-        number: 0 is the reference study, with the first level of each factor.
-        levels: of each factor.
-        share: in [0, 1), where among all assignments of the damage one would be taken.
-    """
-
-    number: int
-    levels: dict[str, Any]
-    share: float
+    number: int  # 0 is the reference study, with the first level of each factor
+    levels: dict[str, Any]  # of each factor
+    share: float  # in [0, 1), where among all assignments of the damage one would be taken
 
 
 def rows(plan: Campaign) -> Iterator[Row]:

@@ -27,26 +27,17 @@ LINE = 1000  # characters: no list of damages is longer
 
 
 class Setup(Frozen):
-    """A row of the design.
+    """A row of the design."""
 
-    Attributes:
-        setup: its number.
-        row: that of the design's sequence; those between two setups were refused by a robot.
-        seed: of searches, poses and trainings.
-        levels: of each factor.
-        home_deg: at the centre of the workspace, the joints in the order of the configuration.
-        homes_refused: by the controller, before this one.
-        damage: the paper's, as assigned to the robot.
-        position_error_cm, orientation_error_deg: mean errors of the arm without correction.
-    """
-
-    setup: int
-    row: int
-    seed: int
-    levels: dict[str, str]
+    setup: int  # its number
+    row: int  # that of the design's sequence; those between two setups were refused by a robot
+    seed: int  # of searches, poses and trainings
+    levels: dict[str, str]  # of each factor
+    # at the centre of the workspace, the joints in the order of the configuration
     home_deg: tuple[float, ...]
-    homes_refused: int
-    damage: tuple[Entry, ...]
+    homes_refused: int  # by the controller, before this one
+    damage: tuple[Entry, ...]  # the paper's, as assigned to the robot
+    # mean errors of the arm without correction
     position_error_cm: float
     orientation_error_deg: float
 

@@ -29,17 +29,12 @@ KeyPath = tuple[str | int, ...]
 
 
 class Mistake(NamedTuple):
-    """What is wrong at the path of a key.
+    """What is wrong at the path of a key."""
 
-    Attributes:
-        path: of the key.
-        fault: the rest of a sentence that begins with the path.
-        also: other keys that do not go together with this one: the mistake is reported at the
-            first of them that the user's sources set.
-    """
-
-    path: KeyPath
-    fault: str
+    path: KeyPath  # of the key
+    fault: str  # the rest of a sentence that begins with the path
+    # other keys that do not go together with this one: the mistake is reported at the first of them
+    # that the user's sources set
     also: tuple[KeyPath, ...] = ()
 
     def __str__(self) -> str:

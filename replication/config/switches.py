@@ -6,20 +6,14 @@ IMPROVED, RITTER = "improved", "ritter"  # the learners of the paper
 
 
 class Switch(NamedTuple):
-    """One of the four changes that lead from Ritter's algorithm to the improved one.
+    """One of the four changes that lead from Ritter's algorithm to the improved one."""
 
-    Attributes:
-        key: of a learner's settings.
-        ritter, improved: what each of the paper's learners has there.
-        without: the improved system with this change taken away.
-        added: Ritter's algorithm with this change alone.
-    """
-
-    key: str
+    key: str  # of a learner's settings
+    # what each of the paper's learners has there
     ritter: str
     improved: str
-    without: str
-    added: str
+    without: str  # the improved system with this change taken away
+    added: str  # Ritter's algorithm with this change alone
 
 
 SWITCHES = (

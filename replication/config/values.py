@@ -23,15 +23,10 @@ Place = tuple[str | int, ...]  # file, line, column
 
 @dataclass(frozen=True)
 class Placed:
-    """A value and where it stands.
+    """A value and where it stands."""
 
-    Attributes:
-        content: a scalar, or a mapping or a list of values.
-        place: of its key, where it has one.
-    """
-
-    content: Any
-    place: Place
+    content: Any  # a scalar, or a mapping or a list of values
+    place: Place  # of its key, where it has one
 
     def plain(self) -> Any:
         """The same without places."""

@@ -19,37 +19,24 @@ REMOVED = "removed"  # instead of a digest: what is no longer there
 
 
 class Change(Frozen):
-    """A change after a result had been seen.
+    """A change after a result had been seen."""
 
-    Attributes:
-        when: the time of the commit, in UTC.
-        commit: that shows it.
-        what: was changed.
-        verdict: what it did to verdicts.
-    """
-
-    when: str
-    commit: str
-    what: str
-    verdict: str
+    when: str  # the time of the commit, in UTC
+    commit: str  # that shows it
+    what: str  # was changed
+    verdict: str  # what it did to verdicts
 
 
 class Deviation(Change):
-    """A change of the registration of the campaign in force.
+    """A change of the registration of the campaign in force."""
 
-    Attributes:
-        kind: of the change.
-        before, after: what was registered, and what counts now.
-        why: it was changed.
-        seen: the results that were known.
-        digests: of the changed parts, by name, since then, or `REMOVED`.
-    """
-
-    kind: Literal["criterion", "choice", "design", "code"]
+    kind: Literal["criterion", "choice", "design", "code"]  # of the change
+    # what was registered, and what counts now
     before: str
     after: str
-    why: str
-    seen: str
+    why: str  # it was changed
+    seen: str  # the results that were known
+    # of the changed parts, by name, since then, or `REMOVED`
     digests: dict[str, str] = Field(default={})
 
 
@@ -61,17 +48,11 @@ class Withdrawn(Frozen):
 
 
 class Deviations(Frozen):
-    """What was registered, and all changes, in the order of time.
+    """What was registered, and all changes, in the order of time."""
 
-    Attributes:
-        registered: digests by name.
-        deviations: from the campaign in force.
-        withdrawn: earlier campaigns, the latest one first.
-    """
-
-    registered: dict[str, str]
-    deviations: tuple[Deviation, ...]
-    withdrawn: tuple[Withdrawn, ...]
+    registered: dict[str, str]  # digests by name
+    deviations: tuple[Deviation, ...]  # from the campaign in force
+    withdrawn: tuple[Withdrawn, ...]  # earlier campaigns, the latest one first
 
     @classmethod
     def read(cls, project: Path = Path()) -> Self:

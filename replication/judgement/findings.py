@@ -13,73 +13,43 @@ DIGITS = 6  # more than pages show: rounding twice is rounding once
 
 
 class Number(Frozen):
-    """A number with its intervals.
+    """A number with its intervals."""
 
-    Attributes:
-        name: what it is.
-        system: of which algorithm; empty if the name says it.
-        value: of the number; None if only a bound is known.
-        interval: 95 % of the mean over setups, or of runs.
-        predictive_interval: in which one more study in another setup would find its number.
-        bound: "at least" or "at most", if the value is one.
-    """
-
-    name: str
-    system: str
-    value: float
-    interval: tuple[float, float] | None = None
+    name: str  # what it is
+    system: str  # of which algorithm; empty if the name says it
+    value: float  # of the number; None if only a bound is known
+    interval: tuple[float, float] | None = None  # 95 % of the mean over setups, or of runs
+    # in which one more study in another setup would find its number
     predictive_interval: tuple[float, float] | None = None
-    bound: str | None = None
+    bound: str | None = None  # "at least" or "at most", if the value is one
 
 
 class Spread(Frozen):
-    """By how much a number differs from setup to setup: standard deviations of its logarithm.
+    """By how much a number differs from setup to setup: standard deviations of its logarithm."""
 
-    Attributes:
-        between: setups, without the variation between replicates, and its interval.
-        luck: between measurements of the same setup, and its interval.
-        setups: in which it was measured.
-        unsettled: how many of its searches have not converged.
-        shares: of setups with each effect.
-        factor: what it depends on most, beyond chance.
-    """
-
-    between: float
+    between: float  # setups, without the variation between replicates, and its interval
     between_interval: tuple[float, float]
-    luck: float
+    luck: float  # between measurements of the same setup, and its interval
     luck_interval: tuple[float, float]
-    setups: int
-    unsettled: int
-    shares: dict[str, float]
-    factor: str | None = None
+    setups: int  # in which it was measured
+    unsettled: int  # how many of its searches have not converged
+    shares: dict[str, float]  # of setups with each effect
+    factor: str | None = None  # what it depends on most, beyond chance
 
 
 class Finding(Frozen):
-    """A claim of the paper, its measurements, and the verdict.
+    """A claim of the paper, its measurements, and the verdict."""
 
-    Attributes:
-        id: of the claim.
-        section: of the paper.
-        statement: the paper's own words.
-        claim: what they say, in a sentence.
-        published: the paper's number, if any.
-        criterion: what supports the claim.
-        estimates: numbers; the first one decides.
-        spread: over the setups, if they decide.
-        verdict: on the claim.
-        note: what else there is to say.
-    """
-
-    id: str
-    section: str
-    statement: str
-    claim: str
-    published: str | None
-    criterion: str
-    estimates: tuple[Number, ...]
-    spread: Spread | None
-    verdict: Verdict
-    note: str
+    id: str  # of the claim
+    section: str  # of the paper
+    statement: str  # the paper's own words
+    claim: str  # what they say, in a sentence
+    published: str | None  # the paper's number, if any
+    criterion: str  # what supports the claim
+    estimates: tuple[Number, ...]  # numbers; the first one decides
+    spread: Spread | None  # over the setups, if they decide
+    verdict: Verdict  # on the claim
+    note: str  # what else there is to say
 
 
 _FINDINGS = TypeAdapter(tuple[Finding, ...])

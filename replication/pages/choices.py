@@ -10,17 +10,11 @@ from replication.config.campaign import Factors
 
 
 class Choice(NamedTuple):
-    """A key of the configuration.
+    """A key of the configuration."""
 
-    Attributes:
-        name: its path, as in "search.trials"; of a factor of the campaign, what it is.
-        values: the value as it is written; of a factor, its levels.
-        reason: the comment above the key and behind it.
-    """
-
-    name: str
-    values: tuple[str, ...]
-    reason: str
+    name: str  # its path, as in "search.trials"; of a factor of the campaign, what it is
+    values: tuple[str, ...]  # the value as it is written; of a factor, its levels
+    reason: str  # the comment above the key and behind it
 
 
 def read_choices(path: Path) -> dict[str, Choice]:

@@ -34,20 +34,13 @@ SYSTEMS = {IMPROVED: "improved system"}
 
 @dataclass(frozen=True)
 class Judged:
-    """A claim and its finding.
+    """A claim and its finding."""
 
-    Attributes:
-        statement: what the paper says.
-        finding: None if it was not measured.
-        needs: then, what would measure it, unless it is the campaign.
-        changed: whether its criterion changed after a result had been seen.
-        shares: names and systems of those of its numbers that are shares of an error.
-    """
-
-    statement: Statement
-    finding: Finding | None
-    needs: str
-    changed: bool
+    statement: Statement  # what the paper says
+    finding: Finding | None  # None if it was not measured
+    needs: str  # then, what would measure it, unless it is the campaign
+    changed: bool  # whether its criterion changed after a result had been seen
+    # names and systems of those of its numbers that are shares of an error
     shares: frozenset[tuple[str, str]]
 
     @property

@@ -19,15 +19,10 @@ NOBODY = "The recalib authors"  # in pyproject.toml until somebody publishes
 
 
 class Imprint(NamedTuple):
-    """Who publishes, and where.
+    """Who publishes, and where."""
 
-    Attributes:
-        authors: names, in their order.
-        repository: address of the code; empty until somebody publishes.
-    """
-
-    authors: tuple[str, ...]
-    repository: str
+    authors: tuple[str, ...]  # names, in their order
+    repository: str  # address of the code; empty until somebody publishes
 
     @classmethod
     def read(cls, project: Path = Path()) -> Self:

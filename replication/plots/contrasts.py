@@ -44,17 +44,11 @@ LABELS: Mapping[str, str] = {  # of the claims' numbers, by claim
 
 
 class Row(NamedTuple):
-    """A claim that setups decide.
+    """A claim that setups decide."""
 
-    Attributes:
-        claim: what it says.
-        finding: what was found.
-        numbers: (setup,) what was measured.
-    """
-
-    claim: OfSetups
-    finding: Finding
-    numbers: np.ndarray
+    claim: OfSetups  # what it says
+    finding: Finding  # what was found
+    numbers: np.ndarray  # (setup,) what was measured
 
     @property
     def is_share(self) -> bool:

@@ -14,15 +14,10 @@ SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
 @dataclass(frozen=True)
 class Style:
-    """How a learner or an error is shown.
+    """How a learner or an error is shown."""
 
-    Attributes:
-        color: unlike that of all else in a figure, to the colour-blind, too; a test measures it.
-        marker: empty for none.
-    """
-
-    color: str
-    marker: str
+    color: str  # unlike that of all else in a figure, to the colour-blind, too; a test measures it
+    marker: str  # empty for none
     linestyle: Any
     label: str
 

@@ -24,19 +24,13 @@ class Motion:
 
     Frames are numbered so that those of the second phase are the iterations done until then: those
     of the first phase are negative.
-
-    Attributes:
-        frames: (frame,) those of all phases.
-        angles: (frame, joint) rad that the controller assumes.
-        departures: (2, pose) frames in which a move to a pose starts, in the first and the third
-            phase.
-        iterations: (measurement,) done until the measurements.
     """
 
-    frames: np.ndarray
-    angles: np.ndarray
+    frames: np.ndarray  # (frame,) those of all phases
+    angles: np.ndarray  # (frame, joint) rad that the controller assumes
+    # (2, pose) frames in which a move to a pose starts, in the first and the third phase
     departures: np.ndarray
-    iterations: np.ndarray
+    iterations: np.ndarray  # (measurement,) done until the measurements
 
     def clock(self) -> Clock:
         """When the frames are shown."""

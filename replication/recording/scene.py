@@ -46,17 +46,11 @@ EDGE = 0.012  # radius of an outline's lines
 
 
 class Gripper(NamedTuple):
-    """A gripper as it is drawn.
+    """A gripper as it is drawn."""
 
-    Attributes:
-        half: of its thickness, in units of `Scene.unit`.
-        colour: of its boxes.
-        fill: whether they are solid, or their edges.
-    """
-
-    half: float
-    colour: Colour
-    fill: rr.components.FillMode
+    half: float  # of its thickness, in units of `Scene.unit`
+    colour: Colour  # of its boxes
+    fill: rr.components.FillMode  # whether they are solid, or their edges
 
 
 # each fits into those before

@@ -11,17 +11,11 @@ HALF = np.tan(np.radians(55 / 2))  # of the viewer's picture is so high, a metre
 
 @dataclass(frozen=True)
 class Sight:
-    """The first sight of an arm and its workspace.
+    """The first sight of an arm and its workspace."""
 
-    Attributes:
-        eye: (3,) m, where it is.
-        target: (3,) m, in the middle of the picture.
-        axes: (2, 3) m, half the height of the picture: towards the base, and upwards.
-    """
-
-    eye: np.ndarray
-    target: np.ndarray
-    axes: np.ndarray
+    eye: np.ndarray  # (3,) m, where it is
+    target: np.ndarray  # (3,) m, in the middle of the picture
+    axes: np.ndarray  # (2, 3) m, half the height of the picture: towards the base, and upwards
 
     def place(self, aside: float, above: float) -> np.ndarray:
         """A point (3,) [m] of the plane that faces the eye, by its place in the picture."""

@@ -17,26 +17,19 @@ from replication.training.tuned import Tuned
 
 @dataclass(frozen=True)
 class Watched:
-    """One training of one learner, with what was there at each of its measurements.
+    """One training of one learner, with what was there at each of its measurements."""
 
-    Attributes:
-        history: the errors on all test poses.
-        desired: (pose, 4, 4) those of the test poses that are shown.
-        achieved: (measurement, pose, 4, 4) where the real arm lands instead.
-        angles: (measurement, pose, joint) rad, what the controller commands the joints for them.
-        centres: (cell, 3) m in the base frame, of the supernet of the map that gives positions.
-        weights: (measurement, cell) of the neighbourhood g_k about the last winner, in [0, 1]; zero
-            before the first.
-        corrections: (measurement, cell, 3) m along the base's axes, by which learning moved the
-            position commands of a cell, the mean over its subnet.
-    """
-
-    history: History
-    desired: np.ndarray
-    achieved: np.ndarray
+    history: History  # the errors on all test poses
+    desired: np.ndarray  # (pose, 4, 4) those of the test poses that are shown
+    achieved: np.ndarray  # (measurement, pose, 4, 4) where the real arm lands instead
+    # (measurement, pose, joint) rad, what the controller commands the joints for them
     angles: np.ndarray
+    # (cell, 3) m in the base frame, of the supernet of the map that gives positions
     centres: np.ndarray
+    # (measurement, cell) in [0, 1], g_k about the last winner; zero before the first
     weights: np.ndarray
+    # (measurement, cell, 3) m along the base's axes, by which learning moved the position commands
+    # of a cell, the mean over its subnet
     corrections: np.ndarray
 
 

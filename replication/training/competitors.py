@@ -19,19 +19,12 @@ TWIN = "hybrid"  # the one that identifies a twin: it explains more than geometr
 
 
 class Peer(NamedTuple):
-    """One of today's learners that is compared.
+    """One of today's learners that is compared."""
 
-    Attributes:
-        label: what it is called.
-        needs: what it needs to know.
-        kind: of `recalib.learners.kinds`; empty for that which learns nothing.
-        settings: what it is made with.
-    """
-
-    label: str
-    needs: str
-    kind: str
-    settings: Mapping[str, Any]
+    label: str  # what it is called
+    needs: str  # what it needs to know
+    kind: str  # of `recalib.learners.kinds`; empty for that which learns nothing
+    settings: Mapping[str, Any]  # what it is made with
 
 
 def peers() -> dict[str, Peer]:

@@ -74,17 +74,11 @@ ORDERS = {"random": _independent, "even": _spread_evenly}
 
 @dataclass(frozen=True)
 class _Poses:
-    """Poses of several runs, in workspace coordinates.
+    """Poses of several runs, in workspace coordinates. Raises ValueError: some serve for both."""
 
-    Attributes:
-        name: of their stream.
-        desired: (run, iteration, 6) to learn from.
-        tests: (run, pose, 6) to be measured on. Raises ValueError: some are also learned from.
-    """
-
-    name: str
-    desired: np.ndarray
-    tests: np.ndarray
+    name: str  # of their stream
+    desired: np.ndarray  # (run, iteration, 6) to learn from
+    tests: np.ndarray  # (run, pose, 6) to be measured on
 
     def __post_init__(self) -> None:
         if np.isin(self.tests[..., 0], self.desired[..., 0]).any():

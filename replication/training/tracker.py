@@ -25,17 +25,12 @@ PATIENCE = 60  # seconds for the public address to answer
 
 @dataclass(frozen=True)
 class TrackerMeasurements:
-    """What the tracker saw, in the conventions of the URDF.
+    """What the tracker saw, in the conventions of the URDF."""
 
-    Attributes:
-        angles: (n, 6) rad that were commanded.
-        nominal: (n, 3) m in the base frame, where the table says that the tool should have been.
-        measured: (n, 3) m in the base frame, where it was.
-    """
-
-    angles: np.ndarray
+    angles: np.ndarray  # (n, 6) rad that were commanded
+    # (n, 3) m in the base frame, where the table says that the tool should have been
     nominal: np.ndarray
-    measured: np.ndarray
+    measured: np.ndarray  # (n, 3) m in the base frame, where it was
 
     def __len__(self) -> int:
         return len(self.angles)

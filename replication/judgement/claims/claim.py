@@ -16,25 +16,15 @@ from replication.judgement.verdicts import RATIO, Comparison, Verdict
 
 @dataclass(frozen=True)
 class Statement:
-    """What the paper says, and what would support it.
+    """What the paper says, and what would support it."""
 
-    Attributes:
-        id: its name.
-        section: of the paper.
-        words: the paper's own.
-        claim: what they say, in a sentence.
-        criterion: what supports the claim.
-        reason: why just that.
-        published: the paper's number, if any.
-    """
-
-    id: str
-    section: str
-    words: str
-    claim: str
-    criterion: str
-    reason: str
-    published: str | None = None
+    id: str  # its name
+    section: str  # of the paper
+    words: str  # the paper's own
+    claim: str  # what they say, in a sentence
+    criterion: str  # what supports the claim
+    reason: str  # why just that
+    published: str | None = None  # the paper's number, if any
 
     def finding(
         self, verdict: Verdict, *estimates: Number, note: str = "", spread: Spread | None = None
@@ -47,22 +37,14 @@ class Statement:
 
 @dataclass(frozen=True)
 class OfSetups:
-    """A claim that one number in all setups decides.
+    """A claim that one number in all setups decides."""
 
-    Attributes:
-        statement: what it says.
-        name: of the number.
-        system: the algorithm of which the paper speaks.
-        estimand: the number.
-        comparison: with what it is compared.
-        secondary: more numbers, by name and system, which decide nothing.
-    """
-
-    statement: Statement
-    name: str
-    system: str
-    estimand: Estimand
-    comparison: Comparison = RATIO
+    statement: Statement  # what it says
+    name: str  # of the number
+    system: str  # the algorithm of which the paper speaks
+    estimand: Estimand  # the number
+    comparison: Comparison = RATIO  # with what it is compared
+    # more numbers, by name and system, which decide nothing
     secondary: Mapping[tuple[str, str], Estimand] = field(default_factory=dict)
 
     @property
