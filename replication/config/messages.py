@@ -12,11 +12,7 @@ LONGEST = 60  # characters of a value that are shown
 
 
 class InvalidConfiguration(RecalibError):
-    """A configuration with mistakes, a line for each of the first.
-
-    Attributes:
-        mistakes: all of the lines.
-    """
+    """A configuration with mistakes: a line for each of the first; `mistakes` are all lines."""
 
     def __init__(self, mistakes: Sequence[str]):
         self.mistakes = list(mistakes)

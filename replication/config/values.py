@@ -60,15 +60,12 @@ class Placed:
 
 def from_mapping(data: Any, place: Place = (COMMAND_LINE,)) -> Placed:
     """Values that stand in no line of a file, such as those from the command line."""
-    content: Any
     match data:
         case Mapping():
-            content = {str(key): from_mapping(part, place) for key, part in data.items()}
+            data = {str(key): from_mapping(part, place) for key, part in data.items()}
         case list() | tuple():
-            content = [from_mapping(part, place) for part in data]
-        case _:
-            content = data
-    return Placed(content, place)
+            data = [from_mapping(part, place) for part in data]
+    return Placed(data, place)
 
 
 def from_file(path: str | PathLike[str]) -> Placed:
@@ -78,15 +75,16 @@ def from_file(path: str | PathLike[str]) -> Placed:
     try:
         return _parsed(name, Path(path).read_text(encoding="utf-8-sig"))
     except MarkedYAMLError as error:
-        raise InvalidConfiguration([_unreadable(name, error)]) from None
-    except (OSError, UnicodeDecodeError, YAMLError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "no text in UTF-8"
-        raise InvalidConfiguration([f"{name}: {reason}"]) from None
+        problem = _unreadable(name, error)
+    except OSError as error:
+        problem = f"{name}: {error.strerror}"
+    except (UnicodeDecodeError, YAMLError):
+        problem = f"{name}: no text in UTF-8"
     except ValueError:
-        raise InvalidConfiguration([f"{name}: a value that is not what its tag says"]) from None
+        problem = f"{name}: a value that is not what its tag says"
     except RecursionError:
-        reason = "an anchor within itself, or too many brackets"
-        raise InvalidConfiguration([f"{name}: {reason}"]) from None
+        problem = f"{name}: an anchor within itself, or too many brackets"
+    raise InvalidConfiguration([problem])
 
 
 @cache  # several studies begin with one file

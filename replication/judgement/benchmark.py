@@ -39,10 +39,7 @@ def put_together(study: Study, histories: Sequence[Path]) -> tuple[pd.DataFrame,
 
 
 def moves_to_reach(history: pd.DataFrame, errors: Sequence[str], threshold: float) -> np.ndarray:
-    """Moves (seed,) of the first measurement with all of these errors within the threshold.
-
-    Infinity if there is none.
-    """
+    """Moves (seed,) of the first measurement with all these errors within the threshold, or inf."""
     reached = (history[list(errors)] <= threshold).all(axis=1)
     within = history[reached].groupby("seed")["moves"].min().astype(float)
     return within.reindex(np.sort(history["seed"].unique()), fill_value=np.inf).to_numpy()

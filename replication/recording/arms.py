@@ -35,8 +35,8 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
         raise InvalidFile(robot.urdf, f"mesh {missing[0]!r} is in none of its packages and folders")
     clock, standing = motion.clock(), damaged.standing(motion.angles)
     moved = {number: link for link, number in robot.links.items()}  # by the joint that moves them
-    joints = {joint: robot.joints.index(joint) for joint in map(joint_of, damages) if joint}
-    links = dict.fromkeys([*visuals, *(moved[1 + index] for index in joints.values())])
+    damaged_joints = {joint: robot.joints.index(joint) for joint in map(joint_of, damages) if joint}
+    links = dict.fromkeys([*visuals, *(moved[1 + index] for index in damaged_joints.values())])
     for link, poses in link_placements(damaged.arm, links, standing, base).items():
         send_frame(rec, f"{learner}/links/{link}", f"{learner}/{link}", clock, poses)
     reached, assumed = damaged.arm.forward(standing), robot.arm.forward(motion.angles)
@@ -51,7 +51,7 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
     for link in map(link_of, damages):
         for mesh in visuals.get(link, ()):
             rec.log(mesh, rr.Asset3D.from_fields(albedo_factor=DAMAGE), static=True)
-    for joint, index in joints.items():
+    for joint, index in damaged_joints.items():
         reach = AXIS * unit * robot.arm.axes[index]
         axis = rr.LineStrips3D([[-reach, reach]], radii=BONE * unit / 2, colors=DAMAGE)
         scene.log(f"damage/{joint}", axis, rr.CoordinateFrame(f"{learner}/{moved[1 + index]}"))

@@ -49,9 +49,8 @@ class Motion:
 def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray) -> Motion:
     """The motion that shows a training, from the home angles (joint,) [rad].
 
-    Args:
-        angles: (measurement, pose, joint) rad that the joints are sent to for the shown poses.
-        iterations: (measurement,) done until then.
+    Joints are sent to `angles` (measurement, pose, joint) [rad] for the shown poses, after so many
+    iterations (measurement,).
     """
     before, after = angles[0], angles[-1]
     departures = VISIT * np.arange(len(before))
@@ -71,8 +70,7 @@ def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray) -> Motion
 def _visits(start: np.ndarray, stops: np.ndarray, progress: np.ndarray) -> np.ndarray:
     """Angles (stop x frame, joint) of smooth moves from `start` from stop to stop (stop, joint).
 
-    Args:
-        progress: (frame,) of each way, in [0, 1], if the arm moved evenly.
+    Progress (frame,) is that on each way, in [0, 1], if the arm moved evenly.
     """
     eased = (progress**2 * (3 - 2 * progress))[:, None]  # at rest at both ends
     starts = np.concatenate([start[None], stops[:-1]])[:, None]

@@ -23,11 +23,7 @@ class Sight:
 
 
 def sight_of(workspace: Workspace, misses: np.ndarray) -> Sight:
-    """From before the arm, on the side where misses look longest.
-
-    Args:
-        misses: (n, 3) m.
-    """
+    """From before the arm, on the side where misses (n, 3) [m] look longest."""
     centre = workspace.centre[:3, 3]
     ahead = np.array([*centre[:2], 0]) / np.hypot(*centre[:2])
     up = np.array([0, 0, 1])

@@ -6,7 +6,7 @@ What depends on a robot's geometry is in `replication.running.geometry`.
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from replication.config.switches import IMPROVED, RITTER, SWITCHES
 from replication.training.competitors import MOVES, peers
 from replication.training.measured import RIGID
 
-Each = TypeVar("Each")
 MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 numbers
 
 
@@ -45,7 +44,7 @@ def unused(inherited: Iterable[str], study: Study) -> Iterator[Mistake]:
             yield Mistake(("scenarios", name), f": nothing uses it; expected: {valid}")
 
 
-def _places(path: KeyPath, names: Iterable[Each]) -> dict[KeyPath, Each]:
+def _places(path: KeyPath, names: Iterable[Any]) -> dict[KeyPath, Any]:
     """Where each name of a list, or each key of a mapping, stands."""
     by_key = isinstance(names, Mapping)
     return {(*path, str(name) if by_key else index): name for index, name in enumerate(names)}

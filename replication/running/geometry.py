@@ -26,10 +26,9 @@ from replication.training.plan import places
 
 
 def check_robots(study: Study) -> list[Mistake]:
-    """The mistakes that only the robots know of: in what describes them, and in scenarios.
+    """The mistakes that only robots know of: in what describes them, and in scenarios trained on.
 
-    Args:
-        study: one that has passed `check`. Only scenarios that it trains on are asked for.
+    The study has passed `check`.
     """
     used = list(places(study))
     robots: dict[str, Robot] = {}

@@ -52,11 +52,7 @@ def untuned(study: Study, project: Path = Path()) -> list[str]:
 
 
 class Tuned:
-    """Settings of a study.
-
-    Args:
-        files: tables of the campaign; of its first one, the reference study's settings count.
-    """
+    """Settings of a study, from files like the campaign's table: those of the reference study."""
 
     def __init__(self, study: Study, files: Iterable[Path]):
         self._study = study

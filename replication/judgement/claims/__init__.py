@@ -3,7 +3,6 @@
 What changed in them after a result had been seen stands in `workflow/deviations.yaml`.
 """
 
-from replication.campaign.variants import DOUBLE
 from replication.config.study import Study
 from replication.judgement.claims import (
     section_3,
@@ -26,7 +25,7 @@ def claims(study: Study) -> list[Claim]:
     """All claims of the paper."""
     own, late = study.experiments.iterations, study.campaign.late
     return [
-        *section_3.claims(own, DOUBLE),
+        *section_3.claims(own),
         *section_4.claims(own, late),
         *section_5.claims(own),
         *section_6.claims(own),

@@ -32,7 +32,7 @@ class Statement:
         """What was found about it."""
         stated = {name: value for name, value in vars(self).items() if name in Finding.model_fields}
         found = {"verdict": verdict, "estimates": estimates, "note": note, "spread": spread}
-        return Finding(statement=self.words, **stated, **found)
+        return Finding.model_validate({"statement": self.words} | stated | found)
 
 
 @dataclass(frozen=True)

@@ -67,12 +67,7 @@ def nearness(statement: Statement, evidence: Evidence) -> Finding:
 
 
 def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
-    """The claims of the section, in its order.
-
-    Args:
-        iterations: of Figure 1.
-        late: iterations after which Ritter's maps are compared.
-    """
+    """The claims of the section; iterations of Figure 1, and `late` ones, to compare maps after."""
 
     def remaining(variant: str, error: Error = "both") -> Remaining:
         return Remaining(variant, late, error)
