@@ -36,7 +36,7 @@ PARTS = (
 
 def digests(study: Study, project: Path) -> dict[str, str]:
     """Of each claim, each part of the configuration and each file that verdicts follow from."""
-    found = {claim.statement.id: digest(repr(claim.registered).encode()) for claim in claims(study)}
+    found = {claim.id: digest(repr(claim.registered).encode()) for claim in claims(study)}
     for part in PARTS:
         found[f"config.yaml: {part}"] = digest(repr(getattr(study, part)).encode())
     return found | {name: digest((project / name).read_bytes()) for name in FILES}

@@ -112,10 +112,7 @@ class Contents:
     def claims(self) -> dict[str, Judged]:
         """All claims in the paper's order, by their ids."""
         found = self.evidence.findings()
-        return {
-            claim.statement.id: self._judged(claim, found.get(claim.statement.id))
-            for claim in claims(self.study)
-        }
+        return {claim.id: self._judged(claim, found.get(claim.id)) for claim in claims(self.study)}
 
     def _judged(self, claim: Claim, finding: Finding | None) -> Judged:
         numbers = {}
@@ -124,10 +121,10 @@ class Contents:
         shares = frozenset(key for key in numbers if isinstance(numbers[key], Remaining))
         needs = "" if finding else self._needs(claim)
         changed = any(
-            change.kind == "criterion" and claim.statement.id in change.digests
+            change.kind == "criterion" and claim.id in change.digests
             for change in self.deviations.deviations
         )
-        return Judged(claim.statement, finding, needs, changed, shares)
+        return Judged(claim, finding, needs, changed, shares)
 
     def _needs(self, claim: Claim) -> str:
         try:

@@ -67,11 +67,11 @@ def rows(evidence: Evidence) -> list[Row]:
     """All claims that setups decide by errors, in the paper's order."""
     findings = evidence.findings()
     return [
-        Row(claim, findings[claim.statement.id], np.exp(claim.values(evidence).model().numbers))
+        Row(claim, findings[claim.id], np.exp(claim.values(evidence).model().numbers))
         for claim in claims(evidence.study)
         if isinstance(claim, OfSetups)
         and not isinstance(claim.estimand, Crossing)
-        and claim.statement.id in findings
+        and claim.id in findings
     ]
 
 
@@ -96,7 +96,7 @@ def _draw(axes: Axes, part: list[Row]) -> None:
     low, high = _ends(part)
     for height, row in zip(heights, part, strict=True):
         _draw_row(axes, height, row, (low, high))
-    name_rows(axes, heights, [LABELS.get(row.claim.statement.id, row.claim.name) for row in part])
+    name_rows(axes, heights, [LABELS.get(row.claim.id, row.claim.name) for row in part])
     results = name_right(axes, heights, [row.result for row in part])
     for label, row in zip(results.get_yticklabels(), part, strict=True):
         if row.finding.verdict in (Verdict.SUPPORTED, Verdict.CONTRADICTED):

@@ -35,11 +35,10 @@ class Statement:
         return Finding.model_validate({"statement": self.words} | stated | found)
 
 
-@dataclass(frozen=True)
-class OfSetups:
+@dataclass(frozen=True, kw_only=True)
+class OfSetups(Statement):
     """A claim that one number in all setups decides."""
 
-    statement: Statement  # what it says
     name: str  # of the number
     system: str  # the algorithm of which the paper speaks
     estimand: Estimand  # the number
@@ -50,7 +49,7 @@ class OfSetups:
     @property
     def registered(self) -> tuple[object, ...]:
         """What its verdict follows from."""
-        return self.statement.words, self.statement.criterion, self.estimand, self.comparison
+        return self.words, self.criterion, self.estimand, self.comparison
 
     def judge(self, evidence: Evidence) -> Finding:
         """Raises NotMeasured: too few setups have the number."""
@@ -60,7 +59,7 @@ class OfSetups:
         for (name, system), estimand in self.secondary.items():
             secondary = estimand.values(evidence.outcomes()).model()
             numbers.append(number(name, system, secondary.mean, secondary.another))
-        return self.statement.finding(
+        return self.finding(
             self.comparison.verdict(model),
             *numbers,
             spread=spread(
@@ -89,21 +88,20 @@ def enough(values: Values) -> bool:
     return len(counts) >= FEWEST and bool(counts.max() > 1)
 
 
-@dataclass(frozen=True)
-class Measured:
+@dataclass(frozen=True, kw_only=True)
+class Measured(Statement):
     """A claim about the mapping, or about the reference study alone."""
 
-    statement: Statement
     judge_: Callable[[Statement, Evidence], Finding]
 
     @property
     def registered(self) -> tuple[object, ...]:
         """What its verdict follows from."""
-        return self.statement.words, self.statement.criterion, inspect.getsource(self.judge_)
+        return self.words, self.criterion, inspect.getsource(self.judge_)
 
     def judge(self, evidence: Evidence) -> Finding:
         """Raises NotMeasured."""
-        return self.judge_(self.statement, evidence)
+        return self.judge_(self, evidence)
 
 
 Claim = OfSetups | Measured

@@ -77,62 +77,54 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
     return [
         Measured(
-            Statement(
-                "identity",
-                "3",
-                "For the intact robot, this mapping is the identity.",
-                "The intact robot needs no correction, and learns none.",
-                f"The improved system's errors on the intact robot stay below {LARGEST} cm and"
-                f" {LARGEST} degrees in every measurement.",
-                "Rounding and the controller's tolerance cause far smaller errors.",
-            ),
-            identity,
+            "identity",
+            "3",
+            "For the intact robot, this mapping is the identity.",
+            "The intact robot needs no correction, and learns none.",
+            f"The improved system's errors on the intact robot stay below {LARGEST} cm and"
+            f" {LARGEST} degrees in every measurement.",
+            "Rounding and the controller's tolerance cause far smaller errors.",
+            judge_=identity,
         ),
         Measured(
-            Statement(
-                "single-valued",
-                "3",
-                "avoids the problem of the original application of having a multivalued inverse"
-                " function, because the controller always chooses the same joint angles for a fixed"
-                " command",
-                "Many joint angles reach a pose, but only one command does.",
-                "Of all joint angles found with which the damaged arm reaches a pose, the"
-                " controller chooses exactly one for the command that asks for it, at every pose"
-                " of every scenario.",
-                "For each pose, Newton's method from 50 random starts finds the joint angles.",
-            ),
-            single_valued,
+            "single-valued",
+            "3",
+            "avoids the problem of the original application of having a multivalued inverse"
+            " function, because the controller always chooses the same joint angles for a fixed"
+            " command",
+            "Many joint angles reach a pose, but only one command does.",
+            "Of all joint angles found with which the damaged arm reaches a pose, the controller"
+            " chooses exactly one for the command that asks for it, at every pose of every"
+            " scenario.",
+            "For each pose, Newton's method from 50 random starts finds the joint angles.",
+            judge_=single_valued,
         ),
         Measured(
-            Statement(
-                "grid",
-                "3",
-                "we can directly place the centers of the cells in a regular grid covering it, in"
-                " order to minimize the quantization error. These centers do not need to move",
-                "A regular grid of cells covers the workspace best.",
-                "The quantisation error of the regular grid is below that of cells placed by"
-                f" Kohonen's rule, and at most {WORSE} times the least that k-means finds.",
-                "Within a tenth of the least known counts as least. Kohonen's rule is the step that"
-                " the paper leaves out.",
-            ),
-            grid,
+            "grid",
+            "3",
+            "we can directly place the centers of the cells in a regular grid covering it, in"
+            " order to minimize the quantization error. These centers do not need to move",
+            "A regular grid of cells covers the workspace best.",
+            "The quantisation error of the regular grid is below that of cells placed by Kohonen's"
+            f" rule, and at most {WORSE} times the least that k-means finds.",
+            "Within a tenth of the least known counts as least. Kohonen's rule is the step that"
+            " the paper leaves out.",
+            judge_=grid,
         ),
         OfSetups(
-            Statement(
-                "ritter-slow",
-                "3",
-                "was not as quick as expected, even if the neighborhood widths were tuned in order"
-                " to maximize learning speed",
-                "Ritter's map is slow, even with its widths tuned.",
-                f"After {iterations} iterations, tuned for them, more than a quarter of an error of"
-                " the arm remains.",
-                "A learner that leaves a quarter of the error is not quick.",
-            ),
-            "larger remaining share of the two errors",
-            "Ritter's one map",
-            Remaining(DOUBLE, iterations),
-            Comparison(log(SLOW), below=False),
-            {
+            "ritter-slow",
+            "3",
+            "was not as quick as expected, even if the neighborhood widths were tuned in order to"
+            " maximize learning speed",
+            "Ritter's map is slow, even with its widths tuned.",
+            f"After {iterations} iterations, tuned for them, more than a quarter of an error of"
+            " the arm remains.",
+            "A learner that leaves a quarter of the error is not quick.",
+            name="larger remaining share of the two errors",
+            system="Ritter's one map",
+            estimand=Remaining(DOUBLE, iterations),
+            comparison=Comparison(log(SLOW), below=False),
+            secondary={
                 ("error from a random start / from the identity", "Ritter's one map"): Contrast(
                     Remaining("ritter_random_start", iterations), Remaining(RITTER, iterations)
                 )

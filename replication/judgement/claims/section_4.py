@@ -102,85 +102,74 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
     errors: tuple[Error, ...] = "position", "orientation"
     found: list[OfSetups | Measured] = [
         Measured(
-            Statement(
-                "weak-coupling",
-                "4",
-                "changes in position coordinates influence very slowly the orientation commands,"
-                " and the same can be said about orientation coordinates with respect to position"
-                " commands",
-                "Positions hardly influence orientation commands, nor the reverse.",
-                f"In every setup, at {100 * POSES:g} % of poses, the off-diagonal blocks of the"
-                " true mapping's Jacobian have at most a tenth of the norm of the diagonal ones.",
-                "*Slowly* is an order of magnitude, in half-ranges of the workspace.",
-            ),
-            weak_coupling,
+            "weak-coupling",
+            "4",
+            "changes in position coordinates influence very slowly the orientation commands, and"
+            " the same can be said about orientation coordinates with respect to position commands",
+            "Positions hardly influence orientation commands, nor the reverse.",
+            f"In every setup, at {100 * POSES:g} % of poses, the off-diagonal blocks of the true"
+            " mapping's Jacobian have at most a tenth of the norm of the diagonal ones.",
+            "*Slowly* is an order of magnitude, in half-ranges of the workspace.",
+            judge_=weak_coupling,
         ),
         Measured(
-            Statement(
-                "weak-coupling-reason",
-                "4",
-                "Due to the characteristics of the workspace used (far from singularities and of"
-                " small size relative to that of the robot)",
-                "This decoupling arises because the workspace is small and far from singularities.",
-                f"The cross effect at {100 * POSES:g} % of poses rises in a box twice as long along"
-                " each axis of positions. In that box it is larger, in the median, at the half of"
-                " the poses with the larger condition numbers.",
-                "Units stay those of the workspace, so a larger box changes only where poses are.",
-            ),
-            nearness,
+            "weak-coupling-reason",
+            "4",
+            "Due to the characteristics of the workspace used (far from singularities and of small"
+            " size relative to that of the robot)",
+            "This decoupling arises because the workspace is small and far from singularities.",
+            f"The cross effect at {100 * POSES:g} % of poses rises in a box twice as long along"
+            " each axis of positions. In that box it is larger, in the median, at the half of the"
+            " poses with the larger condition numbers.",
+            "Units stay those of the workspace, so a larger box changes only where poses are.",
+            judge_=nearness,
         ),
         OfSetups(
-            Statement(
-                "large-neighbourhoods",
-                "4",
-                "too large neighborhoods in the position coordinates space are counterproductive to"
-                " learn position commands",
-                "Too wide neighbourhoods of positions hurt position commands.",
-                "The position error as tuned is below that with the position map's g_k kept as wide"
-                " as the workspace, and all else tuned anew.",
-                "No neighbourhood needs to be wider than the workspace.",
-            ),
-            "position error with tuned / with wide neighbourhoods of positions",
-            TWO,
-            Contrast(
+            "large-neighbourhoods",
+            "4",
+            "too large neighborhoods in the position coordinates space are counterproductive to"
+            " learn position commands",
+            "Too wide neighbourhoods of positions hurt position commands.",
+            "The position error as tuned is below that with the position map's g_k kept as wide as"
+            " the workspace, and all else tuned anew.",
+            "No neighbourhood needs to be wider than the workspace.",
+            name="position error with tuned / with wide neighbourhoods of positions",
+            system=TWO,
+            estimand=Contrast(
                 remaining("two_maps_for_position", "position"),
                 remaining("two_maps_for_position_wide", "position"),
             ),
         ),
         OfSetups(
-            Statement(
-                "no-good-solution",
-                "4",
-                "there is no good solution to these contradictory interests within Ritter et al.'s"
-                " framework",
-                "One map cannot serve positions and orientations at once.",
-                "The larger share of both errors, tuned for both, is above the larger one of the"
-                " shares that the map leaves if it is tuned for each error alone.",
-                "If both errors had the same optimum, the ratio would be 1.",
-            ),
-            "error if tuned for both / for each error alone",
-            ONE,
-            Compromise(
+            "no-good-solution",
+            "4",
+            "there is no good solution to these contradictory interests within Ritter et al.'s"
+            " framework",
+            "One map cannot serve positions and orientations at once.",
+            "The larger share of both errors, tuned for both, is above the larger one of the"
+            " shares that the map leaves if it is tuned for each error alone.",
+            "If both errors had the same optimum, the ratio would be 1.",
+            name="error if tuned for both / for each error alone",
+            system=ONE,
+            estimand=Compromise(
                 remaining(DOUBLE),
                 remaining("one_map_for_position", "position"),
                 remaining("one_map_for_orientation", "orientation"),
             ),
-            RISES,
+            comparison=RISES,
         ),
         OfSetups(
-            Statement(
-                "separate-maps",
-                "4",
-                "This modification leads to a significant increase in learning speed.",
-                "Two maps, one for positions and one for orientations, learn faster than one.",
-                f"After {late:,} iterations, Ritter's two maps leave a smaller error than his one"
-                " map with as many cells, each tuned by itself.",
-                "Section 4 speaks of Ritter's framework. After 200 iterations most of his error"
-                " remains, too much to show a difference.",
-            ),
-            "error with two maps / with one",
-            ONE_TWO,
-            Contrast(remaining(TWO_MAPS), remaining(DOUBLE)),
+            "separate-maps",
+            "4",
+            "This modification leads to a significant increase in learning speed.",
+            "Two maps, one for positions and one for orientations, learn faster than one.",
+            f"After {late:,} iterations, Ritter's two maps leave a smaller error than his one map"
+            " with as many cells, each tuned by itself.",
+            "Section 4 speaks of Ritter's framework. After 200 iterations most of his error"
+            " remains, too much to show a difference.",
+            name="error with two maps / with one",
+            system=ONE_TWO,
+            estimand=Contrast(remaining(TWO_MAPS), remaining(DOUBLE)),
             secondary={
                 ("error with two maps / with one, 200 iterations", ONE_TWO): Contrast(
                     Remaining(TWO_MAPS, iterations), Remaining(DOUBLE, iterations)
@@ -195,19 +184,17 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         words, widths = orders[error]
         found.append(
             OfSetups(
-                Statement(
-                    f"widths-{error}",
-                    "4",
-                    words,
-                    f"The {error} map needs {widths}.",
-                    f"After {late:,} iterations, the {error} error of two maps is smaller if the"
-                    f" {error} map's final widths have the paper's order than in reverse order. The"
-                    " other error stays within what a search for both finds.",
-                    "Both orders are tuned by themselves, and contain equal widths.",
-                ),
-                f"{error} error in the paper's order / in reverse",
-                TWO,
-                Contrast(
+                f"widths-{error}",
+                "4",
+                words,
+                f"The {error} map needs {widths}.",
+                f"After {late:,} iterations, the {error} error of two maps is smaller if the"
+                f" {error} map's final widths have the paper's order than in reverse order. The"
+                " other error stays within what a search for both finds.",
+                "Both orders are tuned by themselves, and contain equal widths.",
+                name=f"{error} error in the paper's order / in reverse",
+                system=TWO,
+                estimand=Contrast(
                     for_(error, "two_maps_for_{}_paper"), for_(error, "two_maps_for_{}_reverse")
                 ),
             )
@@ -216,19 +203,17 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         words, fewer, other, (net, other_net) = cells[error]
         found.append(
             OfSetups(
-                Statement(
-                    f"cells-{error}",
-                    "4",
-                    words,
-                    f"The {error} map needs fewer cells in the {net}.",
-                    f"After {late:,} iterations, the {error} error of two maps with 2 x 2 x 2 cells"
-                    f" in the {net} is below that with 2 x 2 x 2 cells in the {other_net}.",
-                    "A map that needs fewer cells in a net loses less if it has fewer. Above 1, the"
-                    " sentence holds with supernet and subnets exchanged.",
-                ),
-                f"{error} error with fewer cells in the {net} / in the {other_net}",
-                TWO,
-                Contrast(for_(error, fewer), for_(error, other)),
+                f"cells-{error}",
+                "4",
+                words,
+                f"The {error} map needs fewer cells in the {net}.",
+                f"After {late:,} iterations, the {error} error of two maps with 2 x 2 x 2 cells in"
+                f" the {net} is below that with 2 x 2 x 2 cells in the {other_net}.",
+                "A map that needs fewer cells in a net loses less if it has fewer. Above 1, the"
+                " sentence holds with supernet and subnets exchanged.",
+                name=f"{error} error with fewer cells in the {net} / in the {other_net}",
+                system=TWO,
+                estimand=Contrast(for_(error, fewer), for_(error, other)),
             )
         )
     return found

@@ -79,19 +79,17 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     )
     return [
         OfSetups(
-            Statement(
-                "theta-increments",
-                "5",
-                "the information propagated to neighboring units can be modified to improve their"
-                " cooperation",
-                "Cells should share changes of their commands, not commands.",
-                f"After {iterations} iterations the error with increments of theta is below that"
-                " with values.",
-                "Section 5 changes the system with two maps, so the improved system is judged.",
-            ),
-            "error with increments of theta / with values",
-            SYSTEM,
-            Contrast(remaining(IMPROVED), remaining("improved_theta_values")),
+            "theta-increments",
+            "5",
+            "the information propagated to neighboring units can be modified to improve their"
+            " cooperation",
+            "Cells should share changes of their commands, not commands.",
+            f"After {iterations} iterations the error with increments of theta is below that with"
+            " values.",
+            "Section 5 changes the system with two maps, so the improved system is judged.",
+            name="error with increments of theta / with values",
+            system=SYSTEM,
+            estimand=Contrast(remaining(IMPROVED), remaining("improved_theta_values")),
             secondary={
                 ("error with increments of theta / with values", "Ritter's one map"): Contrast(
                     remaining("ritter_theta_increments"), remaining(RITTER)
@@ -99,32 +97,27 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             },
         ),
         Measured(
-            Statement(
-                "theta-reason",
-                "5",
-                "this kind of cooperation works better than Ritter et al.'s when the new function"
-                " is more similar to the original one than to a constant function",
-                "Changes are better if the new mapping is nearer to the old one than to a"
-                " constant.",
-                criterion,
-                reason,
-            ),
-            nearer("theta"),
+            "theta-reason",
+            "5",
+            "this kind of cooperation works better than Ritter et al.'s when the new function is"
+            " more similar to the original one than to a constant function",
+            "Changes are better if the new mapping is nearer to the old one than to a constant.",
+            criterion,
+            reason,
+            judge_=nearer("theta"),
         ),
         OfSetups(
-            Statement(
-                "jacobian-increments",
-                "5",
-                "in all the relevant aspects for us, the problem is the same we encountered with"
-                " the theta_rs update",
-                "Cells should share changes of their Jacobians, not Jacobians.",
-                f"After {iterations} iterations the error with increments of the Jacobians is below"
-                " that with values.",
-                "Section 5 changes the system with two maps, so the improved system is judged.",
-            ),
-            "error with increments of Jacobians / with values",
-            SYSTEM,
-            Contrast(remaining(IMPROVED), remaining("improved_jacobian_values")),
+            "jacobian-increments",
+            "5",
+            "in all the relevant aspects for us, the problem is the same we encountered with the"
+            " theta_rs update",
+            "Cells should share changes of their Jacobians, not Jacobians.",
+            f"After {iterations} iterations the error with increments of the Jacobians is below"
+            " that with values.",
+            "Section 5 changes the system with two maps, so the improved system is judged.",
+            name="error with increments of Jacobians / with values",
+            system=SYSTEM,
+            estimand=Contrast(remaining(IMPROVED), remaining("improved_jacobian_values")),
             secondary={
                 ("error with increments of Jacobians / with values", "Ritter's one map"): Contrast(
                     remaining("ritter_jacobian_increments"), remaining(RITTER)
@@ -132,47 +125,40 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             },
         ),
         Measured(
-            Statement(
-                "jacobian-reason",
-                "5",
-                "The new update version is better than the classical one when the Jacobian function"
-                " of f' is more similar to df/dw than to a constant matrix.",
-                "The same condition decides for Jacobians.",
-                criterion,
-                reason,
-            ),
-            nearer("jacobian"),
+            "jacobian-reason",
+            "5",
+            "The new update version is better than the classical one when the Jacobian function of"
+            " f' is more similar to df/dw than to a constant matrix.",
+            "The same condition decides for Jacobians.",
+            criterion,
+            reason,
+            judge_=nearer("jacobian"),
         ),
         OfSetups(
-            Statement(
-                "not-drastic",
-                "5",
-                "in the usual case in which the kinematics change is not drastic",
-                "Sharing changes helps less after a drastic change of the kinematics.",
-                "The error with both increments over that without them is larger with encoder"
-                " shifts three times as large.",
-                "If the size of the change did not matter, both ratios would be the same.",
-            ),
-            "advantage of increments after a drastic change / after the paper's",
-            SYSTEM,
-            Difference(
+            "not-drastic",
+            "5",
+            "in the usual case in which the kinematics change is not drastic",
+            "Sharing changes helps less after a drastic change of the kinematics.",
+            "The error with both increments over that without them is larger with encoder shifts"
+            " three times as large.",
+            "If the size of the change did not matter, both ratios would be the same.",
+            name="advantage of increments after a drastic change / after the paper's",
+            system=SYSTEM,
+            estimand=Difference(
                 Contrast(remaining("improved_drastic"), remaining("improved_values_drastic")), both
             ),
-            RATIO._replace(below=False),
+            comparison=RATIO._replace(below=False),
         ),
         OfSetups(
-            Statement(
-                "cooperation",
-                "abstract, 8",
-                "the learning is much faster due to the improved cooperation among the learning"
-                " units",
-                "The improved system is better because its cells share changes.",
-                f"After {iterations} iterations the error with increments of theta and of Jacobians"
-                " is below that with values of both.",
-                "Both increments are what improves the cooperation.",
-            ),
-            "error with both increments / with values",
-            SYSTEM,
-            both,
+            "cooperation",
+            "abstract, 8",
+            "the learning is much faster due to the improved cooperation among the learning units",
+            "The improved system is better because its cells share changes.",
+            f"After {iterations} iterations the error with increments of theta and of Jacobians is"
+            " below that with values of both.",
+            "Both increments are what improves the cooperation.",
+            name="error with both increments / with values",
+            system=SYSTEM,
+            estimand=both,
         ),
     ]

@@ -68,50 +68,42 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     name = "error with equal visits / with exponential widths"
     return [
         Measured(
-            Statement(
-                "coarse-widths",
-                "6",
-                "When the neighborhood width is large [...] Few iterations are then required to"
-                " learn the mapping in all the input space at a coarse level of resolution."
-                " Instead, when the neighborhoods are small [...] many more iterations are"
-                " required",
-                "Wide neighbourhoods learn a coarse mapping in few iterations, narrow ones in"
-                " many.",
-                f"With constant widths, both errors are halved after at most {FEW} iterations if"
-                " neighbourhoods are as wide as half of the workspace, and after at least"
-                f" {MANY} times as many if they are as wide as half of the distance between cells.",
-                "Few is a tenth of Figure 1's iterations, many more an order of magnitude. Each"
-                " width has the best of four constant rates.",
-            ),
-            coarse_widths,
+            "coarse-widths",
+            "6",
+            "When the neighborhood width is large [...] Few iterations are then required to learn"
+            " the mapping in all the input space at a coarse level of resolution. Instead, when"
+            " the neighborhoods are small [...] many more iterations are required",
+            "Wide neighbourhoods learn a coarse mapping in few iterations, narrow ones in many.",
+            f"With constant widths, both errors are halved after at most {FEW} iterations if"
+            f" neighbourhoods are as wide as half of the workspace, and after at least {MANY}"
+            " times as many if they are as wide as half of the distance between cells.",
+            "Few is a tenth of Figure 1's iterations, many more an order of magnitude. Each width"
+            " has the best of four constant rates.",
+            judge_=coarse_widths,
         ),
         Measured(
-            Statement(
-                "expected-learning",
-                "6",
-                "The second equality results from assuming Gaussian neighborhoods and a uniform"
-                " p(w), and it is valid for w_r's not too close to the border",
-                "Equation (10) predicts how much a cell learns in an iteration.",
-                "Monte Carlo agrees within 5 % and three of its standard errors for all cells at"
-                " least 3 sigma from the border.",
-                "No schedule would show a deviation below 5 %.",
-            ),
-            expected_learning,
+            "expected-learning",
+            "6",
+            "The second equality results from assuming Gaussian neighborhoods and a uniform p(w),"
+            " and it is valid for w_r's not too close to the border",
+            "Equation (10) predicts how much a cell learns in an iteration.",
+            "Monte Carlo agrees within 5 % and three of its standard errors for all cells at least"
+            " 3 sigma from the border.",
+            "No schedule would show a deviation below 5 %.",
+            judge_=expected_learning,
         ),
         OfSetups(
-            Statement(
-                "schedule",
-                "6",
-                "The neighborhood scheduling proposed by Ritter et al. does not take into account"
-                " this fact. We will derive now a neighborhood scheduling",
-                "Widths should fall so that a cell is visited equally often at each of them.",
-                f"After {iterations} iterations the error with widths that fall by equal visits is"
-                " below that with widths that fall exponentially. The rate falls by the same law.",
-                "Section 6 changes the widths alone, in the system with two maps.",
-            ),
-            name,
-            "improved system",
-            Contrast(remaining(IMPROVED), remaining("improved_exponential")),
+            "schedule",
+            "6",
+            "The neighborhood scheduling proposed by Ritter et al. does not take into account this"
+            " fact. We will derive now a neighborhood scheduling",
+            "Widths should fall so that a cell is visited equally often at each of them.",
+            f"After {iterations} iterations the error with widths that fall by equal visits is"
+            " below that with widths that fall exponentially. The rate falls by the same law.",
+            "Section 6 changes the widths alone, in the system with two maps.",
+            name=name,
+            system="improved system",
+            estimand=Contrast(remaining(IMPROVED), remaining("improved_exponential")),
             secondary={
                 (name, "Ritter's one map"): Contrast(
                     remaining("ritter_equal_visits"), remaining(RITTER)

@@ -113,92 +113,78 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     name = "larger remaining share of the two errors"
     return [
         Measured(
-            Statement(
-                "rigid",
-                "7",
-                "The results were in complete agreement with the simulation results for the same"
-                " situation",
-                "A real robot, moved and turned as a whole, agreed with the simulation.",
-                "A real robot, moved and turned as a whole, learns as the simulation does.",
-                "The technical report has the numbers.",
-            ),
-            rigid,
+            "rigid",
+            "7",
+            "The results were in complete agreement with the simulation results for the same"
+            " situation",
+            "A real robot, moved and turned as a whole, agreed with the simulation.",
+            "A real robot, moved and turned as a whole, learns as the simulation does.",
+            "The technical report has the numbers.",
+            judge_=rigid,
         ),
         Measured(
-            Statement(
-                "initial-error",
-                "7",
-                "the initial mean average position and orientation error, when executing (1), was"
-                " 8.3 cm and 4.7 degrees, respectively",
-                "This damage gives initial errors of 8.3 cm and 4.7 degrees.",
-                "Both published errors lie in the intervals in which one more robot, with an"
-                " assignment drawn anew, would have its own, and their ends differ by a factor of 4"
-                " at most.",
-                "Robot, links, encoders and signs are not published, so only plausibility can be"
-                " tested. A wider interval agrees with anything.",
-                "8.3 cm, 4.7 degrees",
-            ),
-            initial_error,
+            "initial-error",
+            "7",
+            "the initial mean average position and orientation error, when executing (1), was 8.3"
+            " cm and 4.7 degrees, respectively",
+            "This damage gives initial errors of 8.3 cm and 4.7 degrees.",
+            "Both published errors lie in the intervals in which one more robot, with an"
+            " assignment drawn anew, would have its own, and their ends differ by a factor of 4 at"
+            " most.",
+            "Robot, links, encoders and signs are not published, so only plausibility can be"
+            " tested. A wider interval agrees with anything.",
+            published="8.3 cm, 4.7 degrees",
+            judge_=initial_error,
         ),
         OfSetups(
-            Statement(
-                "figure-1",
-                "7",
-                "Figure 1 shows the results of performing 200 iterations with our learning system",
-                "200 iterations make both errors small.",
-                f"After {iterations} iterations less than a tenth of both errors of the arm"
-                " remains.",
-                "An order of magnitude is the least that a figure would show.",
-            ),
-            name,
-            "improved system",
-            Remaining(IMPROVED, iterations),
-            Comparison(log(SMALL)),
+            "figure-1",
+            "7",
+            "Figure 1 shows the results of performing 200 iterations with our learning system",
+            "200 iterations make both errors small.",
+            f"After {iterations} iterations less than a tenth of both errors of the arm remains.",
+            "An order of magnitude is the least that a figure would show.",
+            name=name,
+            system="improved system",
+            estimand=Remaining(IMPROVED, iterations),
+            comparison=Comparison(log(SMALL)),
         ),
         Measured(
-            Statement(
-                "speed-up",
-                "1, 7",
-                "speeding up learning by a factor of 70 (near to 2 orders of magnitude)",
-                "Ritter's map needs about 70 times as many iterations for the same errors.",
-                f"{PUBLISHED} lies in the interval in which one more study on one more robot would"
-                " find its factor, and the ends of this interval differ by a factor of 4 at most.",
-                "A published number is one study on one robot. Ritter's map has as many cells as"
-                " both new maps, as in the paper; both are tuned for each number of iterations.",
-                f"a factor of {PUBLISHED}",
-            ),
-            speed_up(iterations),
+            "speed-up",
+            "1, 7",
+            "speeding up learning by a factor of 70 (near to 2 orders of magnitude)",
+            "Ritter's map needs about 70 times as many iterations for the same errors.",
+            f"{PUBLISHED} lies in the interval in which one more study on one more robot would"
+            " find its factor, and the ends of this interval differ by a factor of 4 at most.",
+            "A published number is one study on one robot. Ritter's map has as many cells as both"
+            " new maps, as in the paper; both are tuned for each number of iterations.",
+            published=f"a factor of {PUBLISHED}",
+            judge_=speed_up(iterations),
         ),
         OfSetups(
-            Statement(
-                "long",
-                "7",
-                "The original Ritter et al.'s algorithm with optimized parameters required more"
-                " than 10,000 iterations to get the same combination of orientation and position"
-                " errors",
-                "Ritter's map needs more than 10,000 iterations for these errors.",
-                f"The factor is above {LONG}: more than 10,000 iterations over {iterations}.",
-                "Both errors have to be reached. Ritter's map has as many cells as both new maps.",
-                "more than 10,000 iterations",
-            ),
-            "iterations of Ritter's map / of the improved system",
-            "equally many cells",
-            Crossing(DOUBLE, Remaining(IMPROVED, iterations)),
-            Comparison(log(LONG), below=False),
+            "long",
+            "7",
+            "The original Ritter et al.'s algorithm with optimized parameters required more than"
+            " 10,000 iterations to get the same combination of orientation and position errors",
+            "Ritter's map needs more than 10,000 iterations for these errors.",
+            f"The factor is above {LONG}: more than 10,000 iterations over {iterations}.",
+            "Both errors have to be reached. Ritter's map has as many cells as both new maps.",
+            published="more than 10,000 iterations",
+            name="iterations of Ritter's map / of the improved system",
+            system="equally many cells",
+            estimand=Crossing(DOUBLE, Remaining(IMPROVED, iterations)),
+            comparison=Comparison(log(LONG), below=False),
         ),
         OfSetups(
-            Statement(
-                "rough-search",
-                "7",
-                "The parameters were selected after a very rough search",
-                "A very rough search finds the parameters.",
-                f"With the best of 16 settings, less than a tenth of both errors remains after"
-                f" {iterations} iterations.",
-                "Figure 1, whose parameters were found so, has the same criterion.",
-            ),
-            name,
-            "improved system, 16 settings tried",
-            Remaining("improved_rough", iterations),
-            Comparison(log(SMALL)),
+            "rough-search",
+            "7",
+            "The parameters were selected after a very rough search",
+            "A very rough search finds the parameters.",
+            "With the best of 16 settings, less than a tenth of both errors remains after"
+            f" {iterations} iterations.",
+            "Figure 1, whose parameters were found so, has the same criterion.",
+            name=name,
+            system="improved system, 16 settings tried",
+            estimand=Remaining("improved_rough", iterations),
+            comparison=Comparison(log(SMALL)),
         ),
     ]

@@ -22,32 +22,27 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
     return [
         Measured(
-            Statement(
-                "controller-kept",
-                "8",
-                "the system can work without substituting the original controller in commercial"
-                " robots",
-                "The robot's controller stays as it is.",
-                "Fed with a table of commands and measured poses instead of a robot, the learner"
-                " learns bit for bit the same.",
-                "Then it has learned from nothing else.",
-            ),
-            controller_kept,
+            "controller-kept",
+            "8",
+            "the system can work without substituting the original controller in commercial robots",
+            "The robot's controller stays as it is.",
+            "Fed with a table of commands and measured poses instead of a robot, the learner"
+            " learns bit for bit the same.",
+            "Then it has learned from nothing else.",
+            judge_=controller_kept,
         ),
         OfSetups(
-            Statement(
-                "local-units",
-                "8",
-                "other neural network algorithms based on local units can also benefit from these"
-                " improvements",
-                "Another network of local units gains by sharing changes, too.",
-                f"After {iterations} iterations the error of radial units that share increments of"
-                " their commands is below that of those that share values.",
-                "Radial units without Jacobians are one other kind of local unit, the simplest.",
-            ),
-            "error with increments / with values",
-            "radial units",
-            Contrast(
+            "local-units",
+            "8",
+            "other neural network algorithms based on local units can also benefit from these"
+            " improvements",
+            "Another network of local units gains by sharing changes, too.",
+            f"After {iterations} iterations the error of radial units that share increments of"
+            " their commands is below that of those that share values.",
+            "Radial units without Jacobians are one other kind of local unit, the simplest.",
+            name="error with increments / with values",
+            system="radial units",
+            estimand=Contrast(
                 Remaining("radial_increments", iterations), Remaining("radial_values", iterations)
             ),
         ),

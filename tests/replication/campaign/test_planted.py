@@ -121,6 +121,6 @@ def test_what_was_planted_is_found(study, world, monkeypatch):
     monkeypatch.setattr("replication.judgement.claims.claim.FEWEST", SETUPS)  # of a real campaign
     name, names, surface, effects, verdict = WORLDS[world]
     random = np.random.default_rng(len(world))
-    claim = next(claim for claim in claims(study) if claim.statement.id == name)
+    claim = next(claim for claim in claims(study) if claim.id == name)
     table = campaign(study, names, surface, effects + 0.03 * random.normal(size=SETUPS), 1)
     assert claim.comparison.verdict(claim.values(Table(table)).model()) is verdict

@@ -53,7 +53,7 @@ def evidence(few, settings, tmp_path_factory):
 
 @pytest.mark.parametrize("name", [*JUDGED, *OF_MORE])
 def test_claims_about_the_mapping_are_judged_by_what_is_measured(few, evidence, name):
-    claim = next(claim for claim in claims(few) if claim.statement.id == name)
+    claim = next(claim for claim in claims(few) if claim.id == name)
     assert isinstance(claim, Measured)
     finding = claim.judge(evidence)
     assert all(np.isfinite(estimate.value) for estimate in finding.estimates) and finding.estimates

@@ -101,7 +101,7 @@ def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project, tmp_pat
 
 def test_contrasts_show_every_setup_and_what_was_found(figures, evidence, small):
     shown, found = rows(evidence), evidence.findings()
-    assert {row.claim.statement.id for row in shown} == {*LABELS}
+    assert {row.claim.id for row in shown} == {*LABELS}
     words = [text for axes in figures[Figure.CONTRASTS].axes for text in right_of(axes)]
     theta = found["theta-increments"]
     assert f"{theta.estimates[0].value:.2f} {theta.verdict}" in words
@@ -115,7 +115,7 @@ def test_contrasts_show_every_setup_and_what_was_found(figures, evidence, small)
     )
     ratios = [row.numbers for row in shown if not row.is_share]
     assert np.allclose(np.sort(dots), np.sort(np.concatenate(ratios)))
-    estimands = {claim.statement.id: getattr(claim, "estimand", None) for claim in claims(small)}
+    estimands = {claim.id: getattr(claim, "estimand", None) for claim in claims(small)}
     by_errors = {
         name
         for name, estimand in estimands.items()
