@@ -7,13 +7,7 @@ Counts are whole numbers, no text, no 4.0. Editors say what would be valid as me
 from collections.abc import Callable, Sequence
 from typing import Annotated, Any, TypeVar
 
-from pydantic import (
-    AfterValidator,
-    Field,
-    StringConstraints,
-    ValidationError,
-    WrapValidator,
-)
+from pydantic import AfterValidator, Field, StringConstraints, ValidationError, WrapValidator
 from pydantic_core import PydanticCustomError
 
 MOST = 1_000_000  # iterations: more would run for days

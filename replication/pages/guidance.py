@@ -82,17 +82,14 @@ def _moves(reached: pd.Series) -> str:
 
 def on_real_arm(table: pd.DataFrame, poses: Sequence[int]) -> Table:
     """Mean position errors [mm]: a row for each learner, a cell for each number of poses."""
-    named = table.assign(label=[*map(_named, table["learner"], table["twin"])])
+    rows = zip(table["learner"], table["twin"], strict=True)
+    named = table.assign(label=[label_of(name) + " on a twin" * twin for name, twin in rows])
     errors = named.pivot(index="label", columns="poses", values="position_error_mm")
     shown = errors.reindex(named["label"].unique(), columns=poses)
     return {
         str(label): ["-" if np.isnan(error) else f"{error:.3f}" for error in row]
         for label, row in zip(shown.index, shown.to_numpy(), strict=True)
     }
-
-
-def _named(learner: str, twin: bool) -> str:
-    return label_of(learner) + (" on a twin" if twin else "")
 
 
 def ends_on_twin(table: pd.DataFrame) -> Table:

@@ -154,19 +154,18 @@ def amounts(evidence: Evidence) -> Figure:
     by_size = evidence.table("ensemble.parquet").groupby("scale")
     figure, panels = plt.subplots(1, 2, figsize=(WIDTH, 2.6))
     for axes, error in zip(panels, BOTH, strict=True):
-        for moment, color, marker in (("initial", GREY, "^"), ("final", error.color, error.marker)):
+        for moment, color, marker, text, at, side in (
+            ("initial", GREY, "^", "before", (0.04, 0.95), "left"),
+            ("final", error.color, error.marker, "after", (0.98, 0.05), "right"),
+        ):
             errors = by_size[f"{moment}_{error.column}"]
             low, middle, high = (
                 errors.quantile(share) for share in (BAND[0] / 100, 0.5, BAND[1] / 100)
             )
             band(axes, middle.index, (low, high), color)
             axes.plot(middle.index, middle, color=color, marker=marker)
-        axes.set(xlabel="size of the damage (paper: 1)", ylabel=error.label)
-        for text, at, side, color in (
-            ("before", (0.04, 0.95), "left", GREY),
-            ("after", (0.98, 0.05), "right", error.color),
-        ):
             note(axes, text, at, (0, 0), xycoords="axes fraction", ha=side, color=color)
+        axes.set(xlabel="size of the damage (paper: 1)", ylabel=error.label)
         logarithmic(axes.xaxis, 0.1, 0.3, 1, 3)
         logarithmic(axes.yaxis, 0.01, 0.1, 1, 10)
     return figure

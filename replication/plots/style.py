@@ -34,9 +34,6 @@ STYLE: Any = {
     "axes.titlesize": SMALL,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
-    "axes.labelsize": SMALL,
-    "xtick.labelsize": SMALL,
-    "ytick.labelsize": SMALL,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
@@ -48,7 +45,6 @@ STYLE: Any = {
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.4,
     "lines.markersize": 5,
-    "legend.fontsize": SMALL,
     "legend.frameon": False,
     "legend.handlelength": 2.6,  # two whole dashes
     "legend.columnspacing": 1.2,

@@ -11,16 +11,7 @@ from recalib.vision.detection import Corners
 from recalib.vision.lens_search import find_lens
 from recalib.vision.lenses import Lens
 from recalib.vision.views import optics_of, projected, sighting
-from tests.vision.rendering import (
-    ABOVE,
-    BOARD,
-    FIXED,
-    IN_HAND,
-    LENS,
-    frame,
-    photograph_of,
-    placed,
-)
+from tests.vision.rendering import ABOVE, BOARD, FIXED, IN_HAND, LENS, frame, photograph_of, placed
 
 NOISE = 0.15  # px
 

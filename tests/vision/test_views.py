@@ -9,11 +9,7 @@ from PIL import ExifTags, Image
 
 from recalib.identification.model import displacements
 from recalib.vision.boards import printable
-from recalib.vision.detection import (
-    Unusable,
-    find_corners,
-    read_picture,
-)
+from recalib.vision.detection import Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, good_corners, optics_of, predicted_views, sighting
 from tests.bars.pictures import NOISE, Draw
