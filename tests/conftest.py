@@ -36,7 +36,7 @@ from recalib import (
 from recalib.learners import class_of
 from replication.config import Study, read_study
 from replication.scenarios import Nominal, Resolved, nominal_controller, resolve
-from replication.scenarios.nominal import nominal_of
+from replication.scenarios.plants import nominal_of
 from replication.training import make_peer, peers
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once

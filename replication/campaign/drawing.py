@@ -16,8 +16,7 @@ from replication.campaign.homes import random_home
 from replication.campaign.setups import Setup, robot_in
 from replication.config.study import Study
 from replication.scenarios.assignments import Ways, assign, compare
-from replication.scenarios.nominal import Nominal, nominal_of
-from replication.scenarios.plants import nominal_robot
+from replication.scenarios.plants import Nominal, nominal_of, nominal_robot
 
 
 def design(study: Study) -> list[dict[str, Any]]:

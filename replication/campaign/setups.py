@@ -20,7 +20,7 @@ from replication.config.damages import Entry, describe
 from replication.config.part import Frozen
 from replication.config.shipped import OUTCOMES
 from replication.config.study import Study, WorkspaceSettings
-from replication.scenarios.nominal import Nominal, nominal_of
+from replication.scenarios.plants import Nominal, nominal_of
 
 DIGITS = 4  # of a length in m
 LINE = 1000  # characters: no list of damages is longer

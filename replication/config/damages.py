@@ -7,7 +7,6 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from recalib.damaged.damage import Damage, EncoderShift, LinkShortening
-from recalib.damaged.disturbances import Disturbance, Disturbances
 from recalib.damaged.imperfections import Imperfection
 
 
@@ -46,9 +45,3 @@ def joint_of(entry: Entry) -> str:
 def damages_among(entries: Iterable[Entry]) -> list[Damage]:
     """The damages of a scenario's entries."""
     return [entry for entry in entries if isinstance(entry, Damage)]
-
-
-def disturbances_among(entries: Iterable[Entry]) -> Disturbances | None:
-    """What disturbs moves and measurements, if anything."""
-    parts = [entry for entry in entries if isinstance(entry, Disturbance)]
-    return Disturbances.of(parts) if parts else None

@@ -47,12 +47,9 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = ()) ->
 
 def placed(source: Source) -> Placed:
     """The values of a file or of a mapping. Raises InvalidConfiguration."""
-    match source:
-        case Placed():
-            return source
-        case Mapping():
-            return from_mapping(source)
-    return from_file(source)
+    if isinstance(source, Placed):
+        return source
+    return from_mapping(source) if isinstance(source, Mapping) else from_file(source)
 
 
 def _at_its_place(

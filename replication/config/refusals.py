@@ -14,6 +14,7 @@ from replication.config.messages import EXPECTED, Mistake, unlike
 from replication.config.schema import find, keys, meaning
 
 KEY = "[key]"  # how pydantic ends the place of a key that is no valid name
+MISSING = " is missing: "
 # Pydantic's terms of Python, in terms of YAML.
 YAML_TERMS = {
     r"^\w+ should (be|have) ": "",
@@ -23,9 +24,6 @@ YAML_TERMS = {
     r"at most (\d+) items? after validation, not .*": r"\1 values",
     " after validation, not .*": "",
 }
-
-
-MISSING = " is missing: "
 
 
 def refusals(error: ValidationError, whole: Any) -> list[Mistake]:

@@ -25,14 +25,14 @@ def measure(study: Study, scenarios: Sequence[Path], own: Path) -> tuple[pd.Data
 
     The files are scenarios of the study's robot, and its own one, the paper's damage.
     """
-    plan, seed, resolved = study.mapping, study.seed, [Resolved.read(path) for path in scenarios]
+    plan, seed, resolved = study.mapping, study.seed, [*map(Resolved.read, scenarios)]
     damage = Resolved.read(own)
     return (
-        _in_each(resolved, plan.poses, seed, "coupling", lambda *args, **_: coupling(*args)),
+        _in_each(study, resolved, "coupling", lambda *args, **_: coupling(*args)),
         nearness(damage, plan.poses, seed),
         propagation(damage, plan, seed),
         quantisation(seed),
-        _in_each(resolved, plan.poses, seed, "solutions", solutions),
+        _in_each(study, resolved, "solutions", solutions),
         visits(seed),
     )
 
@@ -48,17 +48,13 @@ def learn(study: Study, own: Path, settings: Sequence[Path]) -> tuple[pd.DataFra
 
 
 def _in_each(
-    scenarios: Sequence[Resolved],
-    poses: int,
-    seed: int,
-    name: str,
-    measure: Callable[..., pd.DataFrame],
+    study: Study, scenarios: list[Resolved], name: str, measure: Callable[..., pd.DataFrame]
 ) -> pd.DataFrame:
-    """What is measured at so many random poses of each scenario."""
+    """What is measured at random poses of each scenario."""
     tables = []
     for scenario in scenarios:
-        controller, rng = scenario.controller(), generator(seed, "study", name)
-        desired = controller.robot.workspace.sample(rng, poses)
+        controller, rng = scenario.controller(), generator(study.seed, "study", name)
+        desired = controller.robot.workspace.sample(rng, study.mapping.poses)
         table = measure(controller, scenario.arm(controller.robot), desired, random=rng)
         tables.append(table.assign(scenario=scenario.scenario))
     return pd.concat(tables)

@@ -93,7 +93,10 @@ def contrasts(evidence: Evidence) -> Figure:
 
 def _draw(axes: Axes, part: list[Row]) -> None:
     heights = range(len(part) - 1, -1, -1)
-    low, high = _ends(part)
+    numbers = np.concatenate(
+        [[*row.numbers, *(row.finding.estimates[0].predictive_interval or ())] for row in part]
+    )
+    low, high = numbers.min() / MARGIN, numbers.max() * MARGIN
     for height, row in zip(heights, part, strict=True):
         _draw_row(axes, height, row, (low, high))
     name_rows(axes, heights, [LABELS.get(row.claim.id, row.claim.name) for row in part])
@@ -104,14 +107,6 @@ def _draw(axes: Axes, part: list[Row]) -> None:
     ticks = TICKS if high < ROOM * low else DECADES
     logarithmic(axes.xaxis, *(tick for tick in ticks if low < tick < high))
     axes.set(xlim=(low, high), ylim=(-0.5, len(part) - 0.5))
-
-
-def _ends(part: list[Row]) -> tuple[float, float]:
-    """Between which everything lies."""
-    numbers = np.concatenate(
-        [[*row.numbers, *(row.finding.estimates[0].predictive_interval or ())] for row in part]
-    )
-    return float(numbers.min() / MARGIN), float(numbers.max() * MARGIN)
 
 
 def _draw_row(axes: Axes, height: float, row: Row, ends: tuple[float, float]) -> None:

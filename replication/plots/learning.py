@@ -40,7 +40,7 @@ def figure_1(evidence: Evidence) -> Figure:
     for axes, row, aside in zip(panels, (0, -1), (6, 3), strict=True):
         for error in BOTH:
             table = curves(history, error)
-            _draw_band(axes, table, error.color)
+            band(axes, table.index, np.percentile(table, BAND, axis=1), error.color)
             axes.plot(means.index, means[error.column], label=error.kind, **error.line())
         axes.set(xlabel=MOVES, xlim=(0, means.index[-1]))
         _label_ends(axes, means, row, aside)
@@ -48,10 +48,6 @@ def figure_1(evidence: Evidence) -> Figure:
     logarithmic(panels[1].yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     legend_below(figure, panels[0], 2)
     return figure
-
-
-def _draw_band(axes: Axes, table: pd.DataFrame, color: str) -> None:
-    band(axes, table.index, np.percentile(table, BAND, axis=1), color)
 
 
 def _label_ends(axes: Axes, means: pd.DataFrame, row: int, aside: float) -> None:
@@ -81,7 +77,7 @@ def learners(evidence: Evidence) -> Figure:
         for (learner, iterations), style in styles.items():
             table = curves(evidence.history(learner, iterations, training.scenario), error)
             table = table[table.index > 0]
-            _draw_band(axes, table, style.color)
+            band(axes, table.index, np.percentile(table, BAND, axis=1), style.color)
             axes.plot(table.index, table.mean(axis=1), label=style.label, **style.line())
         final = curves(evidence.history(*training), error).iloc[-1].mean()
         color = styles[training.learner, training.iterations].color

@@ -1,5 +1,7 @@
 """The figure of what the paper says about the damage and the mapping, before any learning."""
 
+from contextlib import suppress
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
@@ -25,11 +27,9 @@ def mapping(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(2, 2, figsize=(WIDTH, 4.6))
     free = [*panels.ravel()]
     for draw in (_assignments, _coupling, _propagation, _visits):
-        try:
+        with suppress(NotMeasured):  # the first two are not of every study
             draw(free[0], evidence)
-        except NotMeasured:  # the first two are not of every study
-            continue
-        free.pop(0)
+            free.pop(0)
     for axes in free:
         axes.remove()
     return figure

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -40,7 +39,10 @@ def steps(evidence: Evidence) -> Figure:
     )
     texts = []
     for height, (variant, style) in zip(range(len(shown), 0, -1), shown.items(), strict=True):
-        _draw_errors(above, home[home["variant"] == variant], style)
+        rows = home[home["variant"] == variant]
+        shares = np.log(100 * rows[SHARES].max(axis=1)).groupby(rows["iterations"]).mean()
+        signs = {"markersize": 3.5, "marker": style.marker, **style.line()}
+        above.plot(shares.index, np.exp(shares), **signs)
         needed, bound = np.array([own]), 0
         if variant != IMPROVED:
             needed, bound = _needed(Crossing(variant, goal).values(home), own)
@@ -52,9 +54,9 @@ def steps(evidence: Evidence) -> Figure:
     names = [style.label for style in shown.values()]
     names.append(f"Ritter, equal cells,\n{len(setups.table)} setups")
     below.axhline(0.5, **BORDER)
-    rows = range(len(shown), -1, -1)
-    name_rows(below, rows, names)
-    name_right(below, rows, texts)
+    heights = range(len(shown), -1, -1)
+    name_rows(below, heights, names)
+    name_right(below, heights, texts)
     below.set(xlim=ENDS, ylim=(-0.7, len(shown) + 0.6))
     below.set_xlabel("iterations (each length tuned)")
     logarithmic(below.xaxis, 50, 200, 1000, 5000, 20_000)
@@ -67,12 +69,6 @@ def steps(evidence: Evidence) -> Figure:
     font = {"xycoords": ("data", "axes fraction"), "va": "top", "color": GREY}
     note(above, f"the paper:\n{PUBLISHED}×", (own * PUBLISHED, 1), (3, 0), **font)
     return figure
-
-
-def _draw_errors(axes: Axes, rows: pd.DataFrame, style: Style) -> None:
-    """The larger share that remains of both errors, against the iterations of a training."""
-    shares = np.log(100 * rows[SHARES].max(axis=1)).groupby(rows["iterations"]).mean()
-    axes.plot(shares.index, np.exp(shares), markersize=3.5, marker=style.marker, **style.line())
 
 
 def _needed(values: Values, own: int) -> tuple[np.ndarray, int]:

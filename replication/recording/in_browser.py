@@ -3,13 +3,11 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from recalib.damaged.damage import EncoderShift, LinkShortening
 from recalib.nominal.chain import Chain
-from recalib.nominal.robots import Robot
 from replication.config.damages import damages_among
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
@@ -40,8 +38,18 @@ def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path
             case EncoderShift():
                 amounts[damage.encoder] = damage.shift
     rules = rules_of(study.every_learner[IMPROVED])
+    placements = Chain.of(robot.arm).placements[0].reshape(-1, 12)
+    kinematics = {
+        "links": [[link, robot.links[link]] for link in links],  # with the placement at its end
+        "joints": [*robot.joints],
+        "placements": np.round(placements, DIGITS).tolist(),
+        "home": robot.home.tolist(),
+        "lower": robot.lower.tolist(),
+        "upper": robot.upper.tolist(),
+        "half_ranges": robot.workspace.half_ranges.tolist(),
+    }
     described = {
-        "robot": _described(robot, links),
+        "robot": kinematics,
         "damage": [*amounts.values()],
         "iterations": iterations,
         "every": study.training.measure_every,
@@ -52,17 +60,3 @@ def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path
         "tests": poses.tests[0].tolist(),
     }
     return f"// Written by the pipeline: seed {seed}.\nconst STUDY = {json.dumps(described)};\n"
-
-
-def _described(robot: Robot, links: tuple[str, ...]) -> dict[str, list[Any]]:
-    """Its kinematics, and each of these links with the placement at its end."""
-    placements = Chain.of(robot.arm).placements
-    return {
-        "links": [[link, robot.links[link]] for link in links],
-        "joints": [*robot.joints],
-        "placements": np.round(placements[0].reshape(-1, 12), DIGITS).tolist(),
-        "home": robot.home.tolist(),
-        "lower": robot.lower.tolist(),
-        "upper": robot.upper.tolist(),
-        "half_ranges": robot.workspace.half_ranges.tolist(),
-    }

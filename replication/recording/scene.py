@@ -33,6 +33,7 @@ from replication.recording.colours import GREY, NOMINAL, REACHED, WHITE, Colour
 from replication.recording.phases import CLOCK, Clock, Motion
 from replication.recording.sight import Sight
 from replication.recording.watched import Watched
+from replication.training.measured import ERRORS
 
 # of a picture whose half is 1 high
 TOP = 0.98  # where the caption stands
@@ -145,3 +146,40 @@ def send_gripper(
         fill_mode=gripper.fill,
     )
     scene.log(part, boxes, rr.CoordinateFrame(frame))
+
+
+def send_errors(scene: Scene) -> None:
+    """Mean errors over all test poses."""
+    results, (clock, rows) = scene.watched.history.columns(), scene.motion.measurements()
+    # a few moves in a moment are no noise to be averaged
+    style = rr.SeriesLines(names=scene.learner, colors=NOMINAL, widths=3, aggregation_policy="off")
+    for quantity in ERRORS:
+        entity = f"errors/{quantity}/{scene.learner}"
+        scene.rec.send_columns(entity, clock, rr.Scalars.columns(scalars=results[quantity][rows]))
+        scene.rec.log(entity, style, static=True)
+
+
+def send_landings(scene: Scene) -> None:
+    """Misses, as lines from the desired to the achieved positions."""
+    _, rows = scene.motion.measurements()
+    achieved = scene.watched.achieved[rows][..., :3, 3]
+    desired = np.broadcast_to(scene.watched.desired[:, :3, 3], achieved.shape)
+    misses = np.stack([desired, achieved], axis=2).reshape(-1, 2, 3)
+    style = rr.LineStrips3D.from_fields(colors=REACHED, radii=0.02 * scene.unit)
+    lines = rr.LineStrips3D.columns(strips=misses)
+    scene.show("map/miss", lines, len(scene.watched.desired), style)
+
+
+def send_map(scene: Scene) -> None:
+    """The supernet's cells, larger the more they learned last.
+
+    Their corrections are true to scale.
+    """
+    watched, unit = scene.watched, scene.unit
+    _, rows = scene.motion.measurements()
+    points = rr.Points3D.columns(radii=(0.022 + 0.038 * watched.weights[rows].ravel()) * unit)
+    cell = rr.Points3D(watched.centres, colors=NOMINAL)
+    scene.show("map/cells", points, len(watched.centres), cell)
+    arrows = rr.Arrows3D.columns(vectors=watched.corrections[rows].reshape(-1, 3))
+    arrow = rr.Arrows3D.from_fields(origins=watched.centres, radii=0.011 * unit, colors=NOMINAL)
+    scene.show("map/corrections", arrows, len(watched.centres), arrow)

@@ -17,10 +17,17 @@ from replication.config.study import Study
 from replication.recording import captions
 from replication.recording.arms import send_arms
 from replication.recording.blueprint import arrange
-from replication.recording.measurements import send_errors, send_landings, send_map
 from replication.recording.phases import move
 from replication.recording.recorded import recorded_history, typical_seed
-from replication.recording.scene import Scene, log_legend, log_surroundings, send_target
+from replication.recording.scene import (
+    Scene,
+    log_legend,
+    log_surroundings,
+    send_errors,
+    send_landings,
+    send_map,
+    send_target,
+)
 from replication.recording.sight import sight_of
 from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved

@@ -19,8 +19,7 @@ from replication.config.damages import describe
 from replication.config.messages import KeyPath, Mistake, dotted, shown, unknown, unlike
 from replication.config.study import Study
 from replication.scenarios.assignments import Ways
-from replication.scenarios.nominal import nominal_of
-from replication.scenarios.plants import nominal_robot
+from replication.scenarios.plants import nominal_of, nominal_robot
 from replication.scenarios.resolving import has_part
 from replication.training.plan import places
 

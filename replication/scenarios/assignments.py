@@ -14,8 +14,7 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.poses import pose_errors
 from recalib.numerics.randomness import generator
 from replication.config.study import PaperDamage, Published
-from replication.scenarios.nominal import Nominal
-from replication.scenarios.plants import nominal_controller
+from replication.scenarios.plants import Nominal, nominal_controller
 
 TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
 

@@ -1,17 +1,37 @@
 """Scenarios as resolved: a robot, its controller and its damages, from which a plant is made."""
 
+import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Self
 
 from recalib.damaged.damage import DamagedArm, apply
+from recalib.damaged.disturbances import Disturbance, Disturbances
 from recalib.damaged.plant import Plant
 from recalib.nominal.controller import Controller
+from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.robots import Robot, load_robot
 from recalib.numerics.randomness import generator
-from replication.config.damages import Entry, damages_among, disturbances_among
+from replication.config.damages import Entry, damages_among
 from replication.config.part import Frozen
-from replication.scenarios.nominal import Nominal
+from replication.config.study import ControllerSettings, RobotSettings, Study
+
+
+class Nominal(Frozen):
+    """A robot and its controller."""
+
+    name: str
+    robot: RobotSettings
+    controller: ControllerSettings
+    urdf_sha256: str
+    """Digest of the file that `robot.urdf` means: results follow from what stands in it."""
+
+
+def nominal_of(study: Study, robot: str) -> Nominal:
+    """A robot of a study. See `find_urdf` for what it raises."""
+    entry = study.robots[robot]
+    digest = hashlib.sha256(find_urdf(entry.urdf).read_bytes()).hexdigest()
+    return Nominal(name=robot, robot=entry, controller=study.controller, urdf_sha256=digest)
 
 
 def nominal_robot(nominal: Nominal) -> Robot:
@@ -62,5 +82,6 @@ class Resolved(Frozen):
     def plant(self, controller: Controller, seed: int, runs: Sequence[int]) -> Plant:
         """Robots for these runs, with the disturbances of their own."""
         rngs = [generator(seed, self.scenario, run, "disturbances") for run in runs]
-        arm = self.arm(controller.robot)
-        return Plant(controller, arm, disturbances_among(self.damages), rngs)
+        parts = [entry for entry in self.damages if isinstance(entry, Disturbance)]
+        disturbances = Disturbances.of(parts) if parts else None
+        return Plant(controller, self.arm(controller.robot), disturbances, rngs)

@@ -11,8 +11,7 @@ from recalib.numerics.randomness import generator
 from replication.config.damages import Assigned, Entry, damages_among
 from replication.config.study import Study
 from replication.scenarios.assignments import Assignment, assign
-from replication.scenarios.nominal import Nominal, nominal_of
-from replication.scenarios.plants import Resolved, nominal_controller
+from replication.scenarios.plants import Nominal, Resolved, nominal_controller, nominal_of
 
 
 def has_part(study: Study, scenarios: Iterable[str]) -> bool:

@@ -14,8 +14,7 @@ from recalib.numerics.randomness import generator
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.scenarios.assignments import Assignment, Ways
-from replication.scenarios.nominal import nominal_of
-from replication.scenarios.plants import nominal_controller
+from replication.scenarios.plants import nominal_controller, nominal_of
 from replication.training.measured import ERRORS
 from replication.training.poses import Stream, train_for_results
 from replication.training.tuned import Tuned

@@ -21,8 +21,7 @@ from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
 from replication.config.study import Study
-from replication.scenarios.nominal import nominal_of
-from replication.scenarios.plants import nominal_robot
+from replication.scenarios.plants import nominal_of, nominal_robot
 from replication.training.competitors import MOVES, TWIN, UNCORRECTED, Peer, peers
 from replication.training.poses import Stream, train_for_results
 from replication.training.tracker import TrackerMeasurements, read_of, read_whole_description
@@ -122,17 +121,7 @@ def learn(
     known = read_of(robot.arm, fit, described)
     if learner in study.real.twin:
         return _on_twin(study, learner, robot, known, Tuned(study, settings))
-    return _from_tables(study, learner, robot, known, read_of(robot.arm, test, described))
-
-
-def _from_tables(
-    study: Study,
-    learner: str,
-    robot: Robot,
-    known: TrackerMeasurements,
-    tests: TrackerMeasurements,
-) -> pd.DataFrame:
-    rows = []
+    tests, rows = read_of(robot.arm, test, described), []
     for count in study.real.poses:
         # With all of them there is one subset only; what learns nothing needs one, too.
         once = count >= len(known) or learner == UNCORRECTED

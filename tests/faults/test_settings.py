@@ -22,7 +22,7 @@ from replication.plots.figures import figures_of
 from replication.running.consistency import check
 from replication.running.geometry import check_robots
 from replication.running.studies import named_files
-from replication.scenarios.nominal import nominal_of
+from replication.scenarios.plants import nominal_of
 from replication.training.plan import places
 from replication.training.settings import Space
 from replication.training.tuned import rules_of, trained

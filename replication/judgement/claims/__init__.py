@@ -3,6 +3,8 @@
 What changed in them after a result had been seen stands in `workflow/deviations.yaml`.
 """
 
+from contextlib import suppress
+
 from replication.config.study import Study
 from replication.judgement.claims import (
     section_3,
@@ -38,10 +40,8 @@ def judge(evidence: Evidence) -> tuple[Finding, ...]:
     """What was found about each claim for which the study has what it takes."""
     findings = []
     for claim in claims(evidence.study):
-        try:
+        with suppress(NotMeasured):
             findings.append(claim.judge(evidence))
-        except NotMeasured:
-            continue
     return tuple(findings)
 
 
