@@ -48,10 +48,15 @@ PARTS += ["recalib", "profiles", "replication", "tests", "docs", "figures"]
 SHARED = "figures", "rules"  # fixtures that one process makes for all
 
 
+def run(*command, cwd: Path = ROOT, **options) -> subprocess.CompletedProcess:
+    """How a command ends, and what it prints."""
+    return subprocess.run(command, cwd=cwd, text=True, capture_output=True, **options)
+
+
 def loaded_with(statement: str, heavy: set[str]) -> set[str]:
     """Which heavy packages a statement imports."""
     text = f"import sys; {statement}; print(*({heavy} & sys.modules.keys()))"
-    return {*subprocess.check_output([sys.executable, "-c", text], cwd=ROOT, text=True).split()}
+    return {*run(sys.executable, "-c", text, check=True).stdout.split()}
 
 
 def pytest_collection() -> None:

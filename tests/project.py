@@ -58,12 +58,9 @@ class Outcome:
 
 
 class Project:
-    """A copy of the project.
+    """A copy of the project in a folder that is there, for the results of the study of a name.
 
-    Args:
-        folder: where it is to be; it is there already.
-        given: what every call of Snakemake is given.
-        name: of the study whose results it makes.
+    Every call of Snakemake is given what is `given`.
     """
 
     def __init__(self, folder: Path, *given: str, name: str = ""):

@@ -18,7 +18,7 @@ import pytest
 
 import recalib
 from recalib.nominal import find_urdf
-from tests.conftest import ROOT
+from tests.conftest import ROOT, run
 from tests.laboratory.conftest import in_degrees, in_millimetres, read, write
 
 # the robot and the station of the examples, and tests/test_notebook.py
@@ -190,12 +190,7 @@ recalib.load_robott("ur10_robot.urdf")
 def test_a_type_checker_knows_the_public_names_and_finds_no_fault_with_the_examples(tmp_path):
     pytest.importorskip("mypy", reason="needs mypy, of the extra dev")
     (tmp_path / "misuse.py").write_text(MISUSE)
-    checked = subprocess.run(
-        [sys.executable, "-m", "mypy", "examples", tmp_path / "misuse.py"],
-        cwd=ROOT,
-        text=True,
-        capture_output=True,
-    )
+    checked = run(sys.executable, "-m", "mypy", "examples", tmp_path / "misuse.py")
     # not the whole path: of the same text, mypy's cache still knows the one of the last run
     faults = re.findall(r"(\w+)\.py:(\d+): error:", checked.stdout)
     assert faults == [("misuse", "7"), ("misuse", "7"), ("misuse", "8")], checked.stdout
@@ -221,7 +216,7 @@ def test_an_example_ends_with_small_errors(name, monkeypatch, capsys):
 def committed() -> set[str]:
     """The paths of all files that git holds, or would."""
     listing = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
-    listed = subprocess.run(listing, cwd=ROOT, capture_output=True, text=True)
+    listed = run(*listing)
     if listed.returncode:
         pytest.skip("this copy is no git repository")
     return {path for path in listed.stdout.splitlines() if (ROOT / path).is_file()}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.conftest import ROOT
+from tests.conftest import run
 
 KINDS = Path(__file__).parent / "kinds"  # as if its files were beside recalib/damaged/damage.py
 STUDY = """\
@@ -43,8 +43,7 @@ print(json.dumps({
 
 def read(study: Path) -> subprocess.CompletedProcess:
     """What a process of its own, which finds the new kind, reads of a study."""
-    command = [sys.executable, "-c", READ, str(KINDS), str(study)]
-    return subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
+    return run(sys.executable, "-c", READ, KINDS, study)
 
 
 @pytest.fixture

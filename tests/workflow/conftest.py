@@ -21,15 +21,10 @@ SMALL = *CORES, "--configfile", "tests/tiny.yaml"
 
 
 class Killed(NamedTuple):
-    """A copy of the project whose run was killed.
-
-    Attributes:
-        project: the copy.
-        done: when each history was written that was there by then [ns].
-    """
+    """A copy of the project whose run was killed."""
 
     project: Project
-    done: dict[Path, int]
+    done: dict[Path, int]  # when each history was written that was there by then [ns]
 
 
 @pytest.fixture(scope="session")

@@ -1,26 +1,23 @@
 """A study of one's own: as docs/bend.md has it, by the commands that the page names."""
 
 import re
-import subprocess
 import sys
-from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 
 from replication.running import study_of
 from replication.training import Place, places
-from tests.conftest import ROOT, copy_project
+from tests.conftest import ROOT, copy_project, run
 from tests.project import Project
 
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
 STUDY = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)[1]
 
 
-def make(folder, *arguments) -> subprocess.CompletedProcess:
+def make(folder, *arguments) -> CompletedProcess:
     """What make would do."""
-    return subprocess.run(
-        ["make", "-n", "-o", "setup", *arguments], cwd=folder, capture_output=True, text=True
-    )
+    return run("make", "-n", "-o", "setup", *arguments, cwd=folder)
 
 
 @pytest.fixture
@@ -67,15 +64,13 @@ def test_a_study_without_a_file_is_refused(project):
         ("robot: [ur5\n", "2:1: no YAML: expected ',' or ']', but got '<stream end>'"),
     ],
 )
-def test_a_file_that_snakemake_cannot_read_is_named(text, message, project, monkeypatch):
-    monkeypatch.chdir(project)
-    Path("my_leg.yaml").write_text(text, encoding="utf-8")
+def test_a_file_that_snakemake_cannot_read_is_named(text, message, project):
+    (project / "my_leg.yaml").write_text(text, encoding="utf-8")
     commands = make(project, "study", "STUDY=my_leg").stdout
     reading = "-m replication.config.reading"
     assert f"{reading} my_leg.yaml\n" in commands
     for name, says in (("my_leg.yaml", f"my_leg.yaml:{message}\n"), ("my_arm.yaml", "")):
-        command = [sys.executable, *reading.split(), name]
-        assert subprocess.run(command, capture_output=True, text=True).stderr == says
+        assert run(sys.executable, *reading.split(), name, cwd=project).stderr == says
 
 
 @pytest.mark.slow
@@ -93,7 +88,7 @@ def test_the_rules_are_planned_from_another_workflow(tmp_path):
     (tmp_path / "Snakefile").write_text(snakefile)
     (tmp_path / "recalib").mkdir()
     copy_project(tmp_path / "recalib")
-    command = [sys.executable, "-m", "snakemake", "--dry-run", "--quiet", "host"]
-    planned = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    command = sys.executable, "-m", "snakemake", "--dry-run", "--quiet", "host"
+    planned = run(*command, cwd=tmp_path)
     assert planned.returncode == 0, planned.stderr
     assert "recalibration_findings" in planned.stdout + planned.stderr

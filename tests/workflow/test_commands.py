@@ -3,14 +3,13 @@
 import re
 import shlex
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
 from recalib.laboratory.options import parse
-from tests.conftest import ROOT, copy_project
+from tests.conftest import ROOT, copy_project, run
 
 TEMPLATES = ROOT / "workflow" / "templates"
 WRITTEN = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -75,26 +74,15 @@ def test_a_command_can_be_given(command, request):
         folder = ROOT if "-m" in arguments else ROOT / "examples"
         assert (folder / path).exists() or (folder / path.with_suffix("") / "__main__.py").exists()
     else:
-        planned = subprocess.run(
-            [*PLANS[program], *arguments],
-            cwd=request.getfixturevalue("checkout"),
-            text=True,
-            capture_output=True,
-            check=False,
-        )
+        planned = run(*PLANS[program], *arguments, cwd=request.getfixturevalue("checkout"))
         assert planned.returncode == 0, planned.stderr
 
 
 def test_make_help_names_every_target_and_pages_name_no_other():
     text = (ROOT / "Makefile").read_text(encoding="utf-8")
     targets = set(re.search(r"^\.PHONY: (.*)", text, re.MULTILINE)[1].split())
-    printed = subprocess.run(  # make, run by make, would name the folder that it enters
-        ["make", "--no-print-directory", "help"],
-        cwd=ROOT,
-        text=True,
-        capture_output=True,
-        check=True,
-    )
+    # make, run by make, would name the folder that it enters
+    printed = run("make", "--no-print-directory", "help", check=True)
     helped = {line.split()[0] for line in printed.stdout.splitlines() if len(line.split()) > 2}
     assert helped == targets
     timed = {line.split()[0] for line in printed.stdout.splitlines() if TIME.search(line)}

@@ -1,7 +1,6 @@
 """What rules hand over, what a cluster must know of them, and what Snakemake's own checks find."""
 
 import re
-import subprocess
 import sys
 from inspect import Parameter, signature
 from pkgutil import resolve_name
@@ -10,7 +9,7 @@ import pytest
 import yaml
 
 from replication.config import Study
-from tests.conftest import ROOT
+from tests.conftest import ROOT, run
 
 TRACKED = {"function", "study", "code", "digits"}  # for Snakemake, or for the script
 
@@ -57,8 +56,7 @@ MEANT = {
 
 
 def test_the_workflow_is_clean():
-    command = [sys.executable, "-m", "snakemake", "--lint"]
-    linted = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    linted = run(sys.executable, "-m", "snakemake", "--lint")
     titles = re.findall(r"^    \* (.*?):$", linted.stdout + linted.stderr, re.MULTILINE)
     assert titles
     assert [title for title in titles if not title.startswith(tuple(MEANT))] == []

@@ -1,7 +1,6 @@
 """The site in a real browser, checked by axe."""
 
 import re
-import subprocess
 import sys
 from importlib.resources import files
 from pathlib import Path
@@ -18,7 +17,7 @@ from selenium.webdriver.support.wait import WebDriverWait
 
 import recalib
 from tests.browser import chromium, needs_chromium, requests, severe
-from tests.conftest import ROOT
+from tests.conftest import ROOT, run
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 PATIENCE = 60  # seconds
@@ -50,14 +49,9 @@ def site(tmp_path_factory) -> Path:
     with rerun.RecordingStream("magenta") as stream:
         stream.save(recording)
         stream.log("magenta", rerun.Image(np.full((9, 16, 3), MAGENTA, np.uint8)))
-    built = subprocess.run(
-        [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", folder],
-        cwd=ROOT,
-        env={"PATH": "", "NO_MKDOCS_2_WARNING": "1", "RECORDING": str(recording)},
-        text=True,
-        capture_output=True,
-        check=False,
-    )
+    command = sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", folder
+    environment = {"PATH": "", "NO_MKDOCS_2_WARNING": "1", "RECORDING": str(recording)}
+    built = run(*command, env=environment)
     assert built.returncode == 0, built.stderr
     return folder
 

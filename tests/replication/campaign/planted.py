@@ -54,7 +54,6 @@ class PlantedReplicate(Replicate):
     def __init__(self, study: Study, setup: Setup, replicate: int, surface: Surface, effect: float):
         self._study, self._setup, self._replicate = study, setup, replicate
         self._surface, self._effect = surface, effect
-        self._names = {id(variant): name for name, variant in variants(study).items()}
         self.name = ""
 
     def trials(
@@ -80,35 +79,17 @@ class PlantedReplicate(Replicate):
 
 
 def setups(count: int, seed: int) -> list[Setup]:
-    """As many setups, without a robot."""
-    return [
-        Setup(
-            setup=number,
-            row=number,
-            seed=1000 * seed + number,
-            levels={},
-            home_deg=(),
-            homes_refused=0,
-            damage=(),
-            position_error_cm=8.0,
-            orientation_error_deg=4.6,
-        )
-        for number in range(count)
-    ]
+    """As many setups, without a robot and its levels."""
+    seeds = enumerate(range(1000 * seed, 1000 * seed + count))
+    return [Setup.model_construct(setup=number, seed=own) for number, own in seeds]
 
 
 def campaign(
-    study: Study,
-    names: list[str],
-    surface: Surface,
-    effects: np.ndarray,
-    seed: int,
+    study: Study, names: list[str], surface: Surface, effects: np.ndarray, seed: int
 ) -> pd.DataFrame:
     """The table of a planted world; the first three setups are measured twice.
 
-    Args:
-        names: of the variants that are measured, each after those that it needs.
-        effects: (setup,) planted, on the logarithmic scale.
+    Variants are named after those that they need; effects (setup,) are on the logarithmic scale.
     """
     known, tables = variants(study), []
     for setup, effect in zip(setups(len(effects), seed), effects, strict=True):

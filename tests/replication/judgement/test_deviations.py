@@ -1,13 +1,12 @@
 """Every change of what is registered has an entry, and the entry says what git says."""
 
-import subprocess
 from datetime import UTC, datetime
 
 import pytest
 
 from replication.config import DEVIATIONS
 from replication.judgement import REMOVED, Change, Deviations, digests
-from tests.conftest import ROOT
+from tests.conftest import ROOT, run
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +45,7 @@ def test_entries_are_in_the_order_of_time(record):
 def test_entries_have_the_times_of_their_commits(record):
     stated = {change.commit: change.when for change in changes(record)}
     command = ["git", "show", "--no-patch", "--format=%ct", *stated]
-    process = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
+    process = run(*command)
     if process.returncode:
         pytest.skip("needs the project's history")
     times = [datetime.fromtimestamp(int(time), UTC) for time in process.stdout.split()]

@@ -59,7 +59,7 @@ def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damage
     assert coupling(controller, damaged, desired).to_numpy().max() > 0.005
 
 
-def test_a_pose_has_many_joint_solutions_and_one_command(controller, robot, damaged, desired):
+def test_a_pose_has_many_joint_solutions_and_one_command(controller, damaged, desired):
     table = solutions(controller, damaged, desired[:5], np.random.default_rng(0))
     assert (table["commands"] == 1).all()
     assert table["joint_solutions"].max() == 8, "as a wrist, an elbow and a shoulder give"

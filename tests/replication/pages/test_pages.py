@@ -180,7 +180,6 @@ def test_guidance_has_quantiles_of_moves_and_compares_the_hybrid_with_other_lear
     page = render("guidance.md", contents)
     assert "| scenario | geometric | hybrid | improved |" in page
     assert "| links encoders | 3 (2 to 6) | 3 | - |" in page
-    page = render("guidance.md", contents)
     assert "in 1 comparisons, at most by a\nfactor of 1.2: in the scenario links" in page
     (row,) = contents.benchmark.worse
     assert row.moves == 8

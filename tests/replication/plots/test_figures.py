@@ -86,7 +86,7 @@ def test_steps_say_how_many_iterations_were_planted(figures):
     assert shown[-1] == pytest.approx(NEEDED[DOUBLE], rel=0.15), "a mean over setups"
 
 
-def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project, tmp_path):
+def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project):
     def shortened(table):
         return (
             table

@@ -43,7 +43,6 @@ def test_words_are_large_enough_and_stand_on_no_others(figures, name):
     small = min(text.get_fontsize() for text in texts(figure))
     assert small * PHONE / (72 * figure.get_figwidth()) >= LEAST
     assert small * ARTICLE / figure.get_figwidth() >= SMALLEST
-    figure = figures[name]
     boxes = [(text.get_text(), text.get_window_extent()) for text in texts(figure)]
     for (one, box), (other, other_box) in combinations(boxes, 2):
         assert not box.padded(-2).overlaps(other_box.padded(-2)), (one, other)

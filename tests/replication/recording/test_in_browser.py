@@ -2,7 +2,6 @@
 
 import json
 import shutil
-import subprocess
 from dataclasses import replace
 from functools import partial
 from itertools import product
@@ -28,7 +27,7 @@ from recalib.nominal import pose_errors
 from replication.recording import script, typical_seed
 from replication.scenarios import Resolved
 from replication.training import Stream
-from tests.conftest import ROOT
+from tests.conftest import ROOT, run
 from tests.replication.recording.conftest import ITERATIONS, OWN, TESTS, WIDTHS
 
 STUDY = ROOT / "docs" / "study.js"
@@ -59,13 +58,7 @@ def content(path: Path) -> SimpleNamespace:
 
 def in_node(written: Path, expression: str):
     """The value of an expression, with the study and all scripts but the page's there."""
-    process = subprocess.run(
-        ["node", "-e", NODE, "--", expression, str(written), *SCRIPTS],
-        cwd=ROOT,
-        text=True,
-        capture_output=True,
-        check=True,
-    )
+    process = run("node", "-e", NODE, "--", expression, written, *SCRIPTS, check=True)
     return json.loads(process.stdout)
 
 

@@ -110,7 +110,7 @@ def test_the_tool_goes_on_from_the_arm_and_fits_into_the_desired_pose(columns, r
     assert (inmost > 0).all() and (inmost < inside).all() and (inside < outside).all()
 
 
-def test_damaged_links_joints_and_base_are_yellow(columns, robot):
+def test_damaged_links_joints_and_base_are_yellow(columns):
     """A shortened forearm, a shifted elbow, a sagging shoulder, and a base 2.2 cm off."""
     yellow = rgba(colours.DAMAGE)
     for joint, link in (("elbow_joint", "forearm_link"), ("shoulder_lift_joint", "upper_arm_link")):
@@ -131,9 +131,7 @@ def rgba(colour) -> int:
     return (red << 24) + (green << 16) + (blue << 8) + 255
 
 
-def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
-    columns, robot, poses, goals
-):
+def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(columns, robot, poses):
     _, arrows = columns("/improved/map/corrections", "Arrows3D:vectors")
     assert np.ptp(arrows[0]) == 0
     _, misses = columns("/improved/map/miss", "LineStrips3D:strips")

@@ -40,7 +40,7 @@ def written(few, tmp_path_factory):
     return folder, files
 
 
-def test_each_place_has_its_damages_by_one_assignment(few, written):
+def test_each_place_has_its_damages_by_one_assignment(written):
     _, files = written
     links, encoders, both, other = (
         Resolved.read(path) for place, path in files.items() if place.scenario != "intact"
@@ -72,7 +72,7 @@ def test_where_no_scenario_has_a_part_of_the_paper_s_damage_nothing_is_assigned(
         evidence.assignments()
 
 
-def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(study, plan):
+def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(plan):
     """Another learner meets the same noise."""
     noisy = Noise(1e-3, 1e-3), Outliers(0.3, 0.05), Repeatability(1e-3)
     commands = np.zeros((1, 4, 6))
@@ -111,7 +111,7 @@ def assigned(plan):
 
 
 def test_every_row_has_the_errors_of_its_damages(assigned, controller):
-    damage, table, _ = assigned
+    damage, table, assignment = assigned
     robot = controller.robot
     ways = Ways(LINKS, damage.shorten, robot.joints, damage.shift)
     assert len(table["distance"]) == len(ways) == 12 * 12
@@ -123,8 +123,6 @@ def test_every_row_has_the_errors_of_its_damages(assigned, controller):
         orientation = np.degrees(orientation_error(achieved, desired).mean())
         assert table["position_error_cm"][index] == pytest.approx(position)
         assert table["orientation_error_deg"][index] == pytest.approx(orientation)
-    damage, table, assignment = assigned
-    ways = Ways(LINKS, damage.shorten, controller.robot.joints, damage.shift)
     assert assignment == ways[table["distance"].round(9).argmin()]
 
 

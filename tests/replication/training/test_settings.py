@@ -61,7 +61,6 @@ def test_a_neighbourhood_that_is_to_be_narrower_is_and_a_given_width_does_not_fa
     settings = columns(space, space.rows(points(100)))
     assert (settings["position_g_k"] <= settings["position_g_kl"] * 1.001).all()
     assert (settings["orientation_g_k"] > settings["orientation_g_kl"]).any()
-    rules = Rules(True, False, False, False)
     space = Space(rules, study.search.ranges, constant={"position_g_k": 2.0})
     assert "position_g_k" not in space.coordinates and len(space.coordinates) == 6
     rows = space.rows(points(5, 6))
