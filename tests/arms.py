@@ -10,11 +10,9 @@ PANDA = [f"panda_joint{index}" for index in range(1, 8)]
 
 
 def urdf(*joints: Iterable[str], mass: float = 0.0) -> str:
-    """A chain of links base, link_1, ... link_n.
+    """A chain of links base, link_1, ... link_n of a mass [kg].
 
-    Args:
-        joints: name, kind, axis and origin of each, and what else is to stand in it.
-        mass: kg of each link.
+    Joints have name, kind, axis and origin each, and what else is to stand in them.
     """
     text = '<robot name="small"><link name="base"/>'
     for index, (name, kind, axis, xyz, *more) in enumerate(joints, start=1):

@@ -26,18 +26,13 @@ def turned(turns: np.ndarray, places: np.ndarray | None = None) -> np.ndarray:
 
 @dataclass
 class HandEyeCell:
-    """A camera on the hand or next to the arm.
-
-    Args:
-        position, rotation: m and rad, standard deviations of the flange's pose along each axis.
-        four_axes: whether the flange turns about the vertical alone.
-    """
+    """A camera on the hand or next to the arm."""
 
     seed: int
     in_hand: bool
-    position: float = 5e-4
-    rotation: float = np.radians(0.05)
-    four_axes: bool = False
+    position: float = 5e-4  # m, standard deviation of the flange's pose along each axis
+    rotation: float = np.radians(0.05)  # rad
+    four_axes: bool = False  # whether the flange turns about the vertical alone
     board: Board = BOARD
     lens: Lens = LENS
 
@@ -99,11 +94,7 @@ class HandEyeCell:
         return views
 
     def sights(self, count: int, height: float | None = None) -> Sights:
-        """By as many pictures, with the lens from them.
-
-        Args:
-            height: the error [m] of the height that is given; None if none is given.
-        """
+        """By as many pictures, with the lens from them; `height`: the error [m] of one given."""
         flange = self.flange(count)
         views = self.views(flange)
         lens = find_lens([(self.board, view) for view in views], self.lens.size).lens

@@ -90,15 +90,10 @@ def photograph_of(board: Board, lens: Lens, pose: np.ndarray, random, blur: floa
 
 @dataclass
 class Cell:
-    """A Panda off as in docs/peers.md, a camera and a board, one on the hand, one beside the arm.
+    """A Panda off as in docs/peers.md, a camera and a board, one on the hand, one beside the arm."""
 
-    Args:
-        seed: of the arm's errors, of frames and of postures.
-        in_hand: whether the camera is on the hand.
-    """
-
-    seed: int
-    in_hand: bool = False
+    seed: int  # of the arm's errors, of frames and of postures
+    in_hand: bool = False  # whether the camera is
     board: Board = BOARD
     lens: Lens = LENS
 
