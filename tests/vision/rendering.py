@@ -90,7 +90,7 @@ def photograph_of(board: Board, lens: Lens, pose: np.ndarray, random, blur: floa
 
 @dataclass
 class Cell:
-    """A Panda off as in docs/peers.md, a camera and a board, one on the hand, one beside the arm."""
+    """A Panda off as in docs/peers.md; camera and board, one on the hand, one beside the arm."""
 
     seed: int  # of the arm's errors, of frames and of postures
     in_hand: bool = False  # whether the camera is
