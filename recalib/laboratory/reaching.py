@@ -81,21 +81,6 @@ class Goals:
         return replace(self, poses=self.positions) if few else self
 
 
-@dataclass(frozen=True)
-class Reached:
-    """What was found.
-
-    Attributes:
-        joints: (n, columns) rad, m, the best.
-        errors: (n,) m or rad that are left.
-        reached: (n,) whether a pose is reached within the arm's limits.
-    """
-
-    joints: np.ndarray
-    errors: np.ndarray
-    reached: np.ndarray
-
-
 def poses_at(
     calibration: Calibration, joints: np.ndarray, targets: np.ndarray | int | None
 ) -> np.ndarray:
@@ -106,8 +91,12 @@ def poses_at(
     return calibration.predict(every, np.broadcast_to(targets, len(every)))
 
 
-def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reached:
-    """From each start in turn, until a goal is reached.
+def reach(
+    calibration: Calibration, learned: np.ndarray, goals: Goals
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """From each start in turn, until a goal is reached: the best joints (n, columns) [rad, m].
+
+    With the errors (n,) [m or rad] that are left, and whether (n,) a goal is reached within limits.
 
     Args:
         learned: (n, columns) rad, m to start from if the goals have no postures.
@@ -129,7 +118,7 @@ def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reache
         better = within | (remaining < errors[rows])
         found[rows[better]], errors[rows[better]] = tried[better], remaining[better]
         reached[rows] = within
-    return Reached(found, errors, reached)
+    return found, errors, reached
 
 
 def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np.ndarray:
@@ -137,12 +126,12 @@ def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np
 
     Raises NotReached.
     """
-    found, arm = reach(calibration, learned, goals), calibration.model.nominal
-    if found.reached.all():
-        return found.joints
-    rows = np.flatnonzero(~found.reached)
-    goal, joints = goals[rows[:1]], found.joints[rows[0]]
-    if found.errors[rows[0]] > TOLERANCE:
+    found, errors, reached = reach(calibration, learned, goals)
+    if reached.all():
+        return found
+    arm, rows = calibration.model.nominal, np.flatnonzero(~reached)
+    goal, joints = goals[rows[:1]], found[rows[0]]
+    if errors[rows[0]] > TOLERANCE:
         (pose,) = poses_at(calibration, joints[None], goal.targets)
         gap = _gap(pose, goal.reachable(arm).poses[0])
         raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")

@@ -117,7 +117,7 @@ def test_several_cameras_and_boards_are_found_in_one_fit(setup, in_one_fit):
     assert "Careful" not in verdict(result) and not len(result.doubted)
     assert result.correction.targets == targets
     for sight in range(len(sessions)):
-        assert pixel_error(result, "in blocks", result.validation.chosen, sight) < 0.2
+        assert pixel_error(result, result.validation.chosen, sight) < 0.2
     # what stands on one side, relative to the other things there: no gauge moves that
     for side in {place.link for place in result.places}:
         first, *others = (place for place in result.places if place.link == side)

@@ -20,7 +20,8 @@ from recalib.identification.model.linearisation import LEVER
 from recalib.laboratory.hand_eye.calibrating import HAND_EYE, POSES
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.laboratory.live.allowed import Box
-from recalib.laboratory.pictures.observed import IN_HAND, LENS, SETUP
+from recalib.laboratory.options import IN_HAND
+from recalib.laboratory.pictures.observed import LENS, SETUP
 from recalib.laboratory.propose import NoUsefulPosture
 from recalib.numerics.randomness import generator
 from recalib.vision.boards import Board, board_in

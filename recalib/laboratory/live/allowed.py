@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, NoReturn
+from typing import NoReturn
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from recalib.station.interface import StationFailed
 DRAWN, MOST = 2000, 400  # postures that are drawn, and of those that are allowed, kept
 FEWEST = 20  # to choose from
 STEP = 0.02  # rad, m of the fastest joint, between the postures of a path that are checked
+Problem = tuple[str, str]  # what was found and what was expected, in words
 _RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s*")
 
 
@@ -43,13 +44,6 @@ class Box:
             ends.append((low, high))
         lower, upper = np.array(ends).T
         return cls(lower, upper)
-
-
-class Problem(NamedTuple):
-    """Why an arm may not stand in a posture: what was found and what was expected, in words."""
-
-    found: str
-    expected: str
 
 
 class AllowedPostures:
@@ -137,8 +131,8 @@ class AllowedPostures:
     def _refuse(self, what: str, joints: np.ndarray, problem: Problem) -> NoReturn:
         place = ", ".join(f"{1e3 * x:.0f}" for x in self.tool(joints))
         raise StationFailed(
-            f"the arm {what} with its tool at ({place}) mm and {problem.found}; expected:"
-            f" {problem.expected}; try: move it by hand to where the first row was measured"
+            f"the arm {what} with its tool at ({place}) mm and {problem[0]}; expected:"
+            f" {problem[1]}; try: move it by hand to where the first row was measured"
         )
 
     def _between(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
@@ -161,7 +155,7 @@ class AllowedPostures:
                 scale, unit = (1e3, "mm") if self._arm.slides[joint] else (180 / np.pi, "deg")
                 here, least, most = (f"{scale * ends[joint]:.1f}" for ends in (joints, low, high))
                 found = f"{self._arm.joints[joint]} at {here} {unit}"
-                return Problem(found, f"{least} to {most} {unit}, {which}")
+                return found, f"{least} to {most} {unit}, {which}"
         return self._obstacle(joints, slack)
 
     def _obstacle(self, joints: np.ndarray, slack: float = 0.0) -> Problem | None:
@@ -170,9 +164,9 @@ class AllowedPostures:
             place = self.tool(joints)
             if ((place < box.low - slack) | (place > box.high + slack)).any():
                 where = ", ".join(f"{1e3 * x:.0f} mm" for x in place)
-                return Problem(f"the tool at ({where})", "within --box")
+                return f"the tool at ({where})", "within --box"
         if self._clearance and (pair := self._clearance.touching(joints, MARGIN - slack)):
             option = "--floor" if FLOOR in pair else "--no-self-collision"
             found = f"{pair[0]} nearer than {1e3 * MARGIN:.0f} mm to {pair[1]}"
-            return Problem(found, f"more room, or another {option} if this is wrong")
+            return found, f"more room, or another {option} if this is wrong"
         return None

@@ -7,20 +7,24 @@ import termios
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.live.allowed import Box
-from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.live.session import Answer, Ended, LiveSettings, Move, calibrate_live
+from recalib.laboratory.options import IN_HAND
 from recalib.laboratory.tables.description import read_description
 from recalib.nominal.arms import load_arm
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.shapes import load_shapes
 from recalib.station.interface import Station
 from recalib.station.opening import open_station
+
+if TYPE_CHECKING:  # it needs OpenCV
+    from recalib.station.pictures import BoardInPictures
 
 # Who closes the terminal, ends the program, or wants it in the background means a stop, too.
 STOPPING = signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP
@@ -37,7 +41,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
     if given.board is None and (given.lens or given.camera):
         raise InvalidSetting("--board", None, "a board for --lens and --camera")
     opening: Callable[[], Station] = partial(open_station, given.station)
-    pictures: Pictures | None = None
+    pictures: BoardInPictures | None = None
     if given.board is not None:
         opening, pictures = _with_board(opening, given)
     checked = settings.self_collision or settings.floor is not None
@@ -85,9 +89,8 @@ def _settings(given: argparse.Namespace) -> LiveSettings:
 
 def _with_board(
     opening: Callable[[], Station], given: argparse.Namespace
-) -> tuple[Callable[[], Station], Pictures]:
+) -> tuple[Callable[[], Station], "BoardInPictures"]:
     """A function that opens a station with a camera as one that measures, and the pictures."""
-    from recalib.laboratory.pictures.observed import IN_HAND
     from recalib.station.pictures import BoardInPictures, PicturesOfABoard
     from recalib.vision.boards import read_board
     from recalib.vision.lenses import read_lens

@@ -6,6 +6,7 @@ killed goes on as if it had not been. That is fast enough without many waves and
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.distance import cdist
@@ -21,12 +22,14 @@ from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 from recalib.laboratory.live.allowed import AllowedPostures
-from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.plausibility.knowledge import checked_frames
 from recalib.laboratory.propose import PROBES
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED
+
+if TYPE_CHECKING:  # it needs OpenCV
+    from recalib.station.pictures import BoardInPictures
 
 MODELS = OFFSETS, JOINT_ERRORS  # of which the more probable one is used
 FIRST = 20  # rows for an initial estimate of instrument and target: more take longer
@@ -52,10 +55,10 @@ class RunningCalibration:
         arm: Arm,
         description: Description,
         postures: AllowedPostures,
-        pictures: Pictures | None = None,
+        pictures: "BoardInPictures | None" = None,
     ):
         self._arm, self._description, self._postures = arm, description, postures
-        self._pictures = pictures
+        self._pictures, self._probes = pictures, postures.joints[:PROBES]
         self._scale = np.where(arm.slides, 1.0, LEVER)  # m for a rad, or for a m
         self._frames: dict[int, Frames] = {}  # by the number of rows that they are from
         self._calibrations: dict[int, Calibration] = {}
@@ -215,10 +218,6 @@ class RunningCalibration:
                 row = self._weighed(observations, before)[before : before + 1]
                 found.append(float(surprises(calibration, row)[0]))
         return max(1.0, float(np.median(found[1:] or found)))
-
-    @property
-    def _probes(self) -> np.ndarray:
-        return self._postures.joints[:PROBES]
 
     @staticmethod
     def _expected(

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from os import PathLike
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -14,12 +14,15 @@ from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.clearance import Clearance
-from recalib.laboratory.live.record import Pictures, Record
+from recalib.laboratory.live.record import Record
 from recalib.laboratory.live.running import AHEAD, RunningCalibration
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED, Guarded, StationRaised
 from recalib.station.interface import Station, StationFailed
+
+if TYPE_CHECKING:  # it needs OpenCV
+    from recalib.station.pictures import BoardInPictures
 
 USELESS = 0.05  # a part of the predicted error: what gains less is not worth ten moves
 SOON = 20  # rows before which that is not asked: errors beyond geometry do not show in fewer
@@ -106,7 +109,7 @@ def calibrate_live(
     description: Description | None = None,
     on_progress: Callable[[str], None] = lambda line: None,
     on_row: Callable[[Observations, RunningCalibration], None] = lambda rows, running: None,
-    pictures: Pictures | None = None,
+    pictures: "BoardInPictures | None" = None,
     shapes: pin.GeometryModel | None = None,
 ) -> Ended:
     """Let an arm move and measure until its calibration is accurate enough.

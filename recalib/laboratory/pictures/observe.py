@@ -17,13 +17,13 @@ from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.pictures.observed import (
     LEAST,
     NAME,
-    PICTURE,
     WIDE,
     Observed,
     Picture,
     doubt_of,
     views_of,
 )
+from recalib.laboratory.tables.columns import PICTURE
 from recalib.laboratory.tables.table import Table, read_table
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import FEWEST as FEWEST_CORNERS

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from recalib.errors import RecalibError
+from recalib.laboratory.options import FIXED, IN_HAND
 from recalib.laboratory.report.templates import render
-from recalib.laboratory.tables.columns import ERRORS, NOMINAL, PICTURES, POSITIONS, ROTATIONS
+from recalib.laboratory.tables.columns import ERRORS, NOMINAL, PICTURE, POSITIONS, ROTATIONS
 from recalib.laboratory.tables.measurements import pose_rows
 from recalib.laboratory.tables.table import Table, table_text
 from recalib.vision.boards import Board
@@ -18,7 +19,6 @@ from recalib.vision.lenses import Lens
 from recalib.vision.views import optics_kinds
 
 NAME = re.compile(r"[\w-]+", re.ASCII)  # of a camera or a board, as TOML and ROS take it
-(PICTURE,) = PICTURES.headings
 OBSERVED, CORNERS, SETUP, LENS = "measurements.csv", "corners.csv", "setup.toml", "lens.yaml"
 WIDE = 300  # px, of a picture on the page
 LEAST = 0.5  # px: a reprojection error as small is never a reason
@@ -29,7 +29,6 @@ UNSETTLED = (
     "the estimation of the lens did not converge; try: pictures that"
     " show the board tilted, near and far, and in all parts of the picture"
 )
-FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 
 
 @dataclass(frozen=True)

@@ -35,19 +35,7 @@ UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: less is not reported
 
 
 class WrongNominal(RecalibError):
-    """Nominal positions that differ from the nominal arm's.
-
-    Args:
-        gap: m, the largest difference.
-        mistake: the likely one, in words; None if none explains it.
-    """
-
-    def __init__(self, gap: float, mistake: str | None):
-        unlikely = "no single mistake of zero, sign, order or unit explains it: is it another arm?"
-        super().__init__(
-            f"nominal positions are up to {1e3 * gap:.1f} mm from where the URDF's kinematics put"
-            f" the tool; {f'likely: {mistake}' if mistake else unlikely}"
-        )
+    """Nominal positions that differ from the nominal arm's."""
 
 
 def check_nominal(
@@ -83,8 +71,15 @@ def check_nominal(
     if remaining.max() <= ALIKE:
         point = frames.targets[0, :3, 3] - place[:3, 3]
         words = _words(frames.base @ np.linalg.inv(known), point)
-        raise WrongNominal(gaps.max(), f"{words}, missing in the description")
-    raise WrongNominal(gaps.max(), likely_mistake(arm, coordinates, nominal))
+        reason = f"likely: {words}, missing in the description"
+    elif mistake := likely_mistake(arm, coordinates, nominal):
+        reason = f"likely: {mistake}"
+    else:
+        reason = "no single mistake of zero, sign, order or unit explains it: is it another arm?"
+    raise WrongNominal(
+        f"nominal positions are up to {1e3 * gaps.max():.1f} mm from where the URDF's kinematics"
+        f" put the tool; {reason}"
+    )
 
 
 def likely_mistake(

@@ -27,18 +27,15 @@ MOST = 6  # rows that are listed
 def doubts(result: Results) -> Iterator[str]:
     """Warnings, the gravest first."""
     ends = [words for one, words in result.directions if not one.lasting]
+    gain = None if result.mistake else result.wrong_gain
     lines = render(
         "doubts.txt.j2",
         result=result,
         faults=[fault_in_words(fault, result.data, result.frames) for fault in result.faults],
-        gain=result.wrong_gain
-        and not result.mistake
-        and gain_in_words(result.wrong_gain, result.arm),
+        gain=gain and gain_in_words(gain, result.arm),
         outvoted=[*_outvoted(result)],
         worn=_worn(result),
-        axes=turned_axes(result.arm.forward(result.data.observations.joints))
-        if result.unseen
-        else (),
+        axes=turned_axes(result.arm.forward(result.data.observations.joints)),
         open_here=sorted(ends, key=lambda words: not any(end in words for end in ENDS)),
         resized=[*_resized(result)],
         contradicted=_contradicted(result),

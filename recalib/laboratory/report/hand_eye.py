@@ -7,24 +7,19 @@ import numpy as np
 from recalib.identification.hand_eye import Sights, calibrate_hand_eye
 from recalib.identification.hand_eye import held_out as without_fold
 from recalib.identification.held_out import HeldOut
-from recalib.identification.validation import WAYS
+from recalib.identification.validation import BLOCKWISE, WAYS
 from recalib.laboratory.places import Place, hand_eye_places
 from recalib.laboratory.report.templates import render
 from recalib.laboratory.results import Results
 
 
-def pixel_error(result: Results, way: str, kind: str, sight: int | None = None) -> float:
-    """The mean over held-out pictures of how far corners are off [px], each a root mean square.
-
-    Args:
-        sight: the number of a camera's sight of a board; all of them by default.
-    """
+def pixel_error(result: Results, kind: str, sight: int) -> float:
+    """The mean over a sight's pictures, held out in blocks, of how far corners are off [px]."""
     observations, counted = result.data.observations, result.counted
     assert observations.optics is not None
-    if sight is not None:
-        counted = counted[observations.targets[counted] == sight]
-    residuals = result.validation.held_out[way][kind].residuals
-    return float(observations.optics.moved(residuals)[counted].mean())
+    own = counted[observations.targets[counted] == sight]
+    residuals = result.validation.held_out[BLOCKWISE][kind].residuals
+    return float(observations.optics.moved(residuals)[own].mean())
 
 
 def hand_eye(result: Results) -> str:
@@ -32,11 +27,11 @@ def hand_eye(result: Results) -> str:
     validation = result.validation
     held_out = {way: validation.held_out[way][validation.chosen] for way in WAYS}
     as_right, without = _arm_as_right(result, held_out)
-    parts = (
-        ("", result.places, _errors(result, held_out)),
-        ("arm_as_right.", as_right, _errors(result, without)),
+    parts = ("", result.places, held_out), ("arm_as_right.", as_right, without)
+    return render(
+        "hand_eye.toml.j2",
+        parts=[(prefix, places, _errors(result, errors)) for prefix, places, errors in parts],
     )
-    return render("hand_eye.toml.j2", parts=parts)
 
 
 def _arm_as_right(

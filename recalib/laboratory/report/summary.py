@@ -66,24 +66,21 @@ def errors_table(result: Results) -> list[ErrorRow]:
 
 def verdict(result: Results) -> str:
     """The headline of a calibration, then its warnings."""
-    return " ".join([_worth(result), *doubts(result)])
-
-
-def _worth(result: Results) -> str:
     chosen, left = result.validation.chosen, np.sum(~result.validation.counted)
     without = f", {left} of {len(result.data)} rows left out as outliers" if left else ""
     compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
     before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
-    if not result.worthwhile:
-        return (
-            "The correction does not reduce the error: on held-out postures,"
-            f" the nominal arm's mean error of {before:.3g} mm does not fall{without}."
-        )
-    return (
+    headline = (
         f"On postures away from those measured, the mean error falls from {before:.3g} mm to"
         f" {after:.3g} mm, 95 % within {1e3 * result.validation.radius:.3g} mm; near them, to"
         f" {at_random:.3g} mm{without}."
     )
+    if not result.worthwhile:
+        headline = (
+            "The correction does not reduce the error: on held-out postures,"
+            f" the nominal arm's mean error of {before:.3g} mm does not fall{without}."
+        )
+    return " ".join([headline, *doubts(result)])
 
 
 def subject(result: Results) -> str:
@@ -107,7 +104,7 @@ def notes(result: Results) -> list[str]:
 
 def _facts(result: Results) -> dict[str, object]:
     """What the templates name."""
-    data, anywhere = result.data, []
+    data, validation, anywhere = result.data, result.validation, []
     for one, words in (pair for pair in result.directions if pair[0].lasting):
         if result.geometry.model.free[one.parameter]:
             anywhere.append(words + "; try: describe [target]" * (len(data.tables) < 2))
@@ -121,20 +118,13 @@ def _facts(result: Results) -> dict[str, object]:
         "most": MOST,
         "files": names[0] if len(names) == 1 else names and f"{len(names)} folders",
         "fit": corrected,
-        "cameras": [*_cameras(result)] if data.observations.optics is not None else [],
+        "cameras": [
+            (name, *(pixel_error(result, kind, sight) for kind in (validation.chosen, NOTHING)))
+            for sight, name in enumerate(data.sight_names if data.lens_files else [])
+        ],
         "open_anywhere": anywhere,
         "joints": [*_joints(result)],
     }
-
-
-def _cameras(result: Results) -> Iterator[tuple[str, float, float]]:
-    """Mean errors of corners [px] in held-out pictures, corrected and by the nominal arm."""
-    for number, name in enumerate(result.data.sight_names):
-        error, nominal = (
-            pixel_error(result, BLOCKWISE, kind, number)
-            for kind in (result.validation.chosen, NOTHING)
-        )
-        yield name, error, nominal
 
 
 def _joints(result: Results) -> Iterator[dict[str, object]]:

@@ -64,7 +64,8 @@ TARGETS = Columns("targets", ("target",), NAME, "name of the target, if the tool
 SOCKETS = Columns(
     "sockets", ("socket",), NAME, "instead of a position: name of the socket that held the ball"
 )
-PICTURES = Columns("pictures", ("picture",), TEXT, "file name; recalib observe needs it")
+PICTURE = "picture"
+PICTURES = Columns("pictures", (PICTURE,), TEXT, "file name; recalib observe needs it")
 TIMES = Columns(
     "times",
     ("time",),

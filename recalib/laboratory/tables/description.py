@@ -137,23 +137,20 @@ def distances_of(given: Any) -> dict[tuple[str, str], float]:
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
     distances: dict[tuple[str, str], float] = {}
-    for pair, length in map(_distance, given):
+    for part in given:
+        if not isinstance(part, dict) or part.keys() != {"sockets", "length"}:
+            raise InvalidSetting("distance", part, "sockets and length")
+        between = part["sockets"]
+        names = sorted(map(str, between)) if isinstance(between, list) else []
+        if len(names) != 2 or names[0] == names[1]:
+            raise InvalidSetting("distance.sockets", between, "the names of two sockets")
+        pair = names[0], names[1]
+        length = _positive("distance.length", part["length"], LENGTH)
         if pair in distances:
             found = f"{1e3 * distances[pair]:g} mm and {1e3 * length:g} mm"
             raise InvalidSetting(f"distance between {' and '.join(pair)}", found, "one length")
         distances[pair] = length
     return distances
-
-
-def _distance(given: Any) -> tuple[tuple[str, str], float]:
-    if not isinstance(given, dict) or given.keys() != {"sockets", "length"}:
-        raise InvalidSetting("distance", given, "sockets and length")
-    between = given["sockets"]
-    pair = [str(name) for name in between] if isinstance(between, list) else []
-    if len(pair) != 2 or pair[0] == pair[1]:
-        raise InvalidSetting("distance.sockets", between, "the names of two sockets")
-    one, other = sorted(pair)
-    return (one, other), _positive("distance.length", given["length"], LENGTH)
 
 
 def _read(key: str, text: Any, kind: Quantity) -> float:

@@ -33,9 +33,16 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
 
     Raises UnsuitableRobot: joints inside entities, which have no place in the file.
     """
-    nominal = calibration.model.nominal
-    origins, tool = corrected_origins(source, calibration)
-    if tool is None:
+    nominal, parameters = calibration.model.nominal, calibration.estimate.parameters
+    arm, offsets = calibration.model.own_arm(parameters), offset_poses(calibration)
+    moving, (fixed, last) = _segments(source, nominal)
+    origins = {}
+    for joint, (before, moved) in enumerate(moving, start=1):
+        placement = arm.model.jointPlacements[joint].homogeneous
+        origins[moved] = np.linalg.inv(before) @ placement @ offsets[joint - 1]
+    tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
+    if last is not None:
+        origins[last] = np.linalg.inv(fixed) @ tool
         return with_origins(source, origins), nominal.tool
     name = nominal.tool + CORRECTED
     added = (
@@ -44,23 +51,6 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
         f"    {origin_element(tool)}\n  </joint>\n"
     )
     return with_origins(source, origins, added), name
-
-
-def corrected_origins(
-    source: bytes, calibration: Calibration
-) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
-    """New origins (4, 4) by joint, and of a new link for the tool, if it needs one."""
-    nominal, parameters = calibration.model.nominal, calibration.estimate.parameters
-    arm, offsets = calibration.model.own_arm(parameters), offset_poses(calibration)
-    moving, (fixed, name) = _segments(source, nominal)
-    origins = {}
-    for joint, (before, moved) in enumerate(moving, start=1):
-        placement = arm.model.jointPlacements[joint].homogeneous
-        origins[moved] = np.linalg.inv(before) @ placement @ offsets[joint - 1]
-    tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
-    if name is None:
-        return origins, tool
-    return origins | {name: np.linalg.inv(fixed) @ tool}, None
 
 
 def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = "") -> bytes:
