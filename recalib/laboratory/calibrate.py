@@ -106,7 +106,8 @@ def calibrate(
     frames = _frame("instrument", instrument), _frame("target", target)
     rows = Measurements(ARRAYS, moving, poses, columns)
     known = Description({}, *frames, pairs)
-    return identified(arm, data_set(check_measured(rows), known, arm), on_progress=on_progress)
+    check_measured(rows)
+    return identified(arm, data_set(rows, known, arm), on_progress=on_progress)
 
 
 def _frame(name: str, given: ArrayLike | None) -> np.ndarray | None:
@@ -152,24 +153,20 @@ def calibrate_arm(
     another arm; frames that are not identifiable, or contradict the description; a fit that cannot
     be trusted.
     """
-    file, arm, known = opened(urdf, description, tool, base, on_progress)
+    file, arm, known = opened(urdf, description, tool, base)
+    on_progress(file.origin)
     rows = read_measurements(table, arm, known)
     return identified(arm, data_set(rows, known, arm), file, on_progress)
 
 
 def opened(
-    urdf: AnyPath,
-    description: AnyPath | Description | None,
-    tool: str | None,
-    base: str | None,
-    on_progress: Progress,
+    urdf: AnyPath, description: AnyPath | Description | None, tool: str | None, base: str | None
 ) -> tuple[UrdfFile, Arm, Description]:
     """What `calibrate_arm` is given, read."""
     file = UrdfFile.read(urdf)
     arm = arm_of(file.content, file.path, tool, base)
     if description is not None and not isinstance(description, Description):
         description = read_description(description)
-    on_progress(file.origin)
     return file, arm, description or Description()
 
 
@@ -184,7 +181,7 @@ def identified(
         stand = None if known.instrument is None else np.linalg.inv(known.instrument)
         offset = check_nominal(arm, observations.joints, data.nominal, stand, known.target)
     on_progress("initial estimate of instrument and target")
-    frames = known.stated_in(frames_of(arm, data))
+    frames = frames_of(arm, data)
     if observations.optics is not None:
         frames = frames.with_optics(observations.optics)
         covariance = returning(ErrorModel(arm, OFFSETS, frames), observations)

@@ -274,12 +274,6 @@ class Correction:
 
 
 def load_correction(path: str | PathLike[str]) -> Correction:
-    """The calibrated arm in a file that `Correction.save` or `recalib calibrate` wrote.
-
-    Args:
-        path: of the file, or of the folder of a calibration.
-
-    Raises InvalidFile.
-    """
+    """The calibrated arm in a file, or in a folder of `recalib calibrate`. Raises InvalidFile."""
     file = path_of(path) if os.path.isfile(path_of(path)) else Path(path, NAME)
     return Correction.from_archive(read_file(file, MOST), file)

@@ -23,10 +23,6 @@ OUTERMOST = 0.05  # of a joint's range at either end, where joints behave otherw
 PROBES = 200  # postures at which the uncertainty is computed
 
 
-class NoUsefulPosture(RecalibError):
-    """No candidate is within reach, and off the ends of joint ranges."""
-
-
 def propose(
     correction: Correction, count: int, candidates: np.ndarray | Goals | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -40,8 +36,8 @@ def propose(
         candidates: joint coordinates (n, columns), or poses of the tool in the arm's base (default:
             drawn at random). Those out of reach or near the end of a joint's range are left out.
 
-    Raises InvalidSetting if they would have to be drawn for a ball in sockets, and NoUsefulPosture
-    if none is left.
+    Raises InvalidSetting if they would have to be drawn for a ball in sockets, and RecalibError if
+    none is left.
     """
     if candidates is not None:
         postures = _useful(correction, candidates)
@@ -88,12 +84,12 @@ def _useful(correction: Correction, candidates: np.ndarray | Goals) -> np.ndarra
     lower, upper = joint_limits(correction.arm)
     useful = reached & ((found >= lower) & (found <= upper)).all(axis=1)
     if not reached.any():
-        raise NoUsefulPosture(
+        raise RecalibError(
             f"0 of {counted(len(candidates), 'candidate')} can be reached;"
             " are their poses in the arm's base?"
         )
     if not useful.any():
-        raise NoUsefulPosture(
+        raise RecalibError(
             f"{reached.sum()} of {counted(len(candidates), 'candidate')} can be reached, each with"
             " a joint near the end of its range; try: candidates with all joints away from it"
         )

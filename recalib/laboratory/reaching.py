@@ -97,9 +97,7 @@ def reach(
     """From each start in turn, until a goal is reached: the best joints (n, columns) [rad, m].
 
     With the errors (n,) [m or rad] that are left, and whether (n,) a goal is reached within limits.
-
-    Args:
-        learned: (n, columns) rad, m to start from if the goals have no postures.
+    Goals without postures start from learned ones (n, columns) [rad, m].
     """
     arm, simple = calibration.model.nominal, goals.reachable(calibration.model.nominal)
     starts = _nearest(calibration, learned, goals) if goals.postures is None else [goals.postures]
@@ -122,10 +120,7 @@ def reach(
 
 
 def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np.ndarray:
-    """Joint coordinates (n, columns) [rad, m] that reach all goals; see `reach`.
-
-    Raises NotReached.
-    """
+    """Joint coordinates (n, columns) [rad, m] that reach all goals. Raises NotReached."""
     found, errors, reached = reach(calibration, learned, goals)
     if reached.all():
         return found

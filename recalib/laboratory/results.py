@@ -134,14 +134,11 @@ class Results:
     def places(self) -> list[Place]:
         """Poses of instruments, targets and sockets that were not given."""
         tool = self.arm.tool if self.urdf is None else self.corrected[1]
-        data = self.data
-        names = data.target_names, data.sockets, tool, data.instruments
-        by_geometry = found_places(self.geometry, self.unidentifiable, *names)
+        by_geometry = found_places(self.geometry, self.unidentifiable, self.data, tool)
         if self.worthwhile:
             return by_geometry
         # an arm that looks right may still have an offset that is not identifiable
-        names = data.target_names, data.sockets, self.arm.tool, data.instruments
-        by_nominal = found_places(self.calibration, [], *names)
+        by_nominal = found_places(self.calibration, [], self.data, self.arm.tool)
         pairs = zip(by_nominal, by_geometry, strict=True)
         return [replace(one, real_deviations=other.real_deviations) for one, other in pairs]
 

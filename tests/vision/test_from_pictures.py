@@ -19,7 +19,7 @@ from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures import observe as observing
 from recalib.laboratory.pictures.observe import observe
 from recalib.laboratory.pictures.sessions import Session
-from recalib.laboratory.report.hand_eye import hand_eye
+from recalib.laboratory.report.folder import hand_eye
 from recalib.laboratory.report.summary import verdict
 from recalib.vision.detection import Corners, find_corners
 from recalib.vision.lenses import read_lens

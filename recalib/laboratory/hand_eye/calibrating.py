@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from os import PathLike
 from pathlib import Path
 
 import numpy as np
@@ -32,11 +31,11 @@ Progress = Callable[[str], None]  # called with the current step, in a line each
 
 def pictures_at(
     flange: PoseTable,
-    folder: str | PathLike[str],
-    board: str | PathLike[str],
-    lens: str | PathLike[str] | None = None,
-    in_hand: bool = False,
-    on_progress: Progress = lambda line: None,
+    folder: Path,
+    board: Path,
+    lens: Path | None,
+    in_hand: bool,
+    progress: Progress,
 ) -> Observed:
     """The board in pictures that were taken at poses of a flange. Raises as `observe`.
 
@@ -44,20 +43,20 @@ def pictures_at(
     """
     table = flange.table
     if PICTURE not in table:
-        names = [path.name for path in pictures_in(folder)] if Path(folder).is_dir() else []
+        names = [path.name for path in pictures_in(folder)] if folder.is_dir() else []
         if len(names) != len(flange):
             counts = f"it has {counted(len(flange), 'row')}, and {folder} has {len(names)} pictures"
             raise InvalidFile(table.path, f"{counts}; try: a column 'picture' with their names")
         table = replace(table, cells={PICTURE: names}, units={PICTURE: ""})
-    return observe(folder, table, board, lens, in_hand, on_progress, least=FEWEST)
+    return observe(folder, table, board, lens, in_hand, progress, least=FEWEST)
 
 
 def calibrate_poses(
     flange: PoseTable,
     shown: Observed | PoseTable,
-    in_hand: bool = False,
-    height: tuple[float, float] | None = None,
-    on_progress: Progress = lambda line: None,
+    in_hand: bool,
+    height: tuple[float, float] | None,
+    on_progress: Progress,
 ) -> tuple[dict[str, bytes], bool]:
     """Where camera and board are: all files by their names, and whether most of the poses fit.
 
@@ -94,11 +93,9 @@ def calibrate_poses(
 
 
 def _files(found: HandEye, table: str, shown: Observed | None, good: bool) -> dict[str, bytes]:
-    """All files. Errors are of each pose by a calibration without it, which outliers are left out.
+    """All files, by a table of flange poses and what pictures show, if there are any.
 
-    Args:
-        table: the name of the table of flange poses.
-        shown: what pictures show; None without any.
+    Errors are of each pose by a calibration without it. Their mean squares leave outliers out.
     """
     sights, residuals = found.sights, held_out(found)
     moved = sights.corners.moved(residuals)

@@ -49,13 +49,6 @@ class Convention:
     length: str = ""
     angle: str = ""
 
-    @property
-    def layout(self) -> tuple[Columns, Columns]:
-        """The columns of a table, all in lower case."""
-        kind = ANGLE if len(self.headings) == 3 else NUMBER
-        positions = Columns("positions", POSITIONS.headings, LENGTH, unit=self.length, needed=True)
-        return positions, Columns("turns", self.headings, kind, unit=self.angle, needed=True)
-
 
 def _euler(order: str, *headings: str) -> Convention:
     return Convention(headings, partial(Rotation.from_euler, order), "mm", "deg")
@@ -165,11 +158,16 @@ def read_poses(
     table = table_of(f"{head.lower()}\n{rest}".encode(), path)
     if way is None or MATRIX[0] in table:
         way = _by_headings(table)
+    kind = ANGLE if len(way.headings) == 3 else NUMBER
+    layout = (
+        Columns("positions", POSITIONS.headings, LENGTH, needed=True),
+        Columns("turns", way.headings, kind, needed=True),
+    )
     units = dict(table.units)
-    for columns, own in zip(way.layout, (unit or way.length, way.angle), strict=True):
+    for columns, own in zip(layout, (unit or way.length, way.angle), strict=True):
         units |= {name: units.get(name) or own for name in columns.headings}
     table = replace(table, units=units)
-    arrays = table.read((*way.layout, PICTURES), [*table.cells])
+    arrays = table.read((*layout, PICTURES), [*table.cells])
     turns, valid = arrays["turns"], NORMS.get(len(way.headings))
     if valid and (off := np.abs(np.linalg.norm(turns, axis=1) / valid - 1) > SKEW).any():
         found = f"has the norm {np.linalg.norm(turns, axis=1)[off][0]:.3g}"

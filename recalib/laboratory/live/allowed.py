@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import NoReturn
 
 import numpy as np
@@ -52,7 +53,6 @@ class AllowedPostures:
     They follow from the arguments alone, so that a killed calibration goes on as it began.
 
     Args:
-        arm: the nominal one.
         home: (joints,) rad, m where the arm stood at first.
         limits: lower and upper (joints,) rad, m that the station allows; those of the URDF hold,
             too, and the outermost part of each joint's range is left out.
@@ -60,7 +60,6 @@ class AllowedPostures:
         clearance: what must not touch in postures and on paths; default: anything may.
 
     Attributes:
-        home: as given.
         joints: (n, joints) rad, m, in the order in which they were drawn.
 
     Raises InvalidSetting: home is not allowed, or hardly anything else.
@@ -88,13 +87,9 @@ class AllowedPostures:
             raise InvalidSetting("the first posture", *problem)
         low, high = np.maximum(lower, home - reach), np.minimum(upper, home + reach)
         drawn = generator(0, "postures of a live calibration").uniform(low, high, (DRAWN, len(low)))
-        found = []
-        for posture in drawn:
-            # most fail at their ends, which are quickly looked at
-            if not self._obstacle(posture) and self._is_free(home, posture):
-                found.append(posture)
-            if len(found) == MOST:
-                break
+        # most fail at their ends, which are quickly looked at
+        allowed = (end for end in drawn if not self._obstacle(end) and self._is_free(home, end))
+        found = [*islice(allowed, MOST)]
         if len(found) < FEWEST:
             raise InvalidSetting(
                 "--span",

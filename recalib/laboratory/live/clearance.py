@@ -21,7 +21,6 @@ class Clearance:
     whose meshes do not.
 
     Args:
-        arm: the nominal one.
         home: (joints,) rad, m where the arm stands without touching itself.
         shapes: of its links; see `load_shapes`.
         floor, self_collision: see `LiveSettings`.

@@ -38,7 +38,6 @@ class Record:
         pictures: what those in its column `picture` say, which is used instead of its poses.
 
     Attributes:
-        pictures: as given.
         observations: the rows; None while there are none.
         skipped: postures (n, joints) [rad, m].
         dropped: the row without an end, if there was one.
@@ -132,11 +131,9 @@ class Record:
                 self.path,
                 f"its columns are {', '.join(header)}; the station gives {', '.join(names)}",
             )
-        if len(self):
-            row = [row[names.index(name)] for name in header]
+        row = [row[names.index(name)] for name in header]
         text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerows([row] if len(self) else [header, row])
+        csv.writer(text, lineterminator="\n").writerows([row] if len(self) else [header, row])
         line = text.getvalue().encode()
         return self._read(self._content + line), line
 

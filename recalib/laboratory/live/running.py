@@ -44,8 +44,6 @@ class RunningCalibration:
     """Calibrations of an arm from rows that become more: geometry, and joint errors if it has any.
 
     Args:
-        arm: the nominal one.
-        description: frames that are known.
         postures: that may be measured.
         pictures: by which the rows are measured, if cameras do it.
     """
@@ -73,10 +71,8 @@ class RunningCalibration:
         """From all rows. Raises RecalibError: they do not fit the arm."""
         count, some = len(observations), min(FIRST, len(observations))
         if some not in self._frames:
-            given = self._description.instrument, self._description.target
             poses = replace(observations[:some], optics=None)
-            frames = checked_frames(self._arm, poses, *given)
-            self._frames[some] = self._description.stated_in(frames)
+            self._frames[some] = checked_frames(self._arm, poses, self._description)
         if count not in self._calibrations:
             frames = self._frames[some]
             if observations.optics is not None:
@@ -137,9 +133,7 @@ class RunningCalibration:
         informative one. Candidates nearer to an avoided posture than to a measured one are left
         out, and the more are avoided, the nearer candidates are to measured ones. So are those
         where a camera would see less than half of its board, unless nothing else remains.
-
-        Args:
-            avoided: postures (joints,) in which the target was not seen, or that were skipped.
+        Avoided are postures (joints,) in which the target was not seen, or that were skipped.
         """
         if self.is_ready(observations):
             best = next((one for one, _ in self._most_informative(observations, avoided, 1)), None)

@@ -189,8 +189,7 @@ def _where_it_will_be(postures: AllowedPostures) -> str:
 class _Session:
     """A calibration that goes on: the station, the rows so far, and the postures to come.
 
-    Attributes:
-        avoided: postures that a person skipped, or in which the target is not seen; it grows.
+    Those that a person skipped, or in which the target is not seen, are avoided.
     """
 
     station: Guarded

@@ -118,11 +118,7 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
 
 
 def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool) -> list[Picture]:
-    """The pictures without those of another size, repeated ones and blurred ones.
-
-    Args:
-        by_lens: whether the size is of a given lens.
-    """
+    """The pictures without those of another size (of a given lens), repeated and blurred ones."""
     expected = "expected, as by the lens" if by_lens else "expected"
     first: dict[str, str] = {}
     done = []

@@ -105,7 +105,7 @@ class Observed:
 
     @property
     def doubt(self) -> str | None:
-        """A warning about the lens, without its full stop."""
+        """See `doubt_of`."""
         return doubt_of(self.given, self.own, views_of(self.board, self.used))
 
     def summary(self) -> str:
@@ -153,11 +153,7 @@ class Observed:
 
 
 def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str | None:
-    """What is doubtful about the lens of some pictures, in a sentence without its full stop.
-
-    Args:
-        given: the lens, if it is known; otherwise the estimated one counts.
-        own: the lens estimated from the pictures.
+    """What is doubtful about a given lens, or one of these pictures' own, without its full stop.
 
     Raises RecalibError: a given lens that cannot be theirs.
     """

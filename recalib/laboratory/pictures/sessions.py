@@ -137,7 +137,8 @@ def calibrate_pictures(
 
     Raises RecalibError, as `calibrate_arm`.
     """
-    file, arm, known = opened(urdf, description, tool, base, on_progress)
+    file, arm, known = opened(urdf, description, tool, base)
+    on_progress(file.origin)
     if len(folders) > 1 and (known.instrument is not None or known.target is not None):
         reason = "the description has an instrument or a target, which is for one camera"
         raise InvalidFile(folders[1], f"{reason}; try: without")
@@ -181,8 +182,12 @@ def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataS
         found, part = optics_of(lens, views)
         own = [numbers["board", session.board_name]]
         own += [numbers["camera", session.camera]] * session.fitted
+        place = np.eye(len(kinds))[np.concatenate(own)]  # its columns among all
+        slopes, gradient = part.slopes @ place, part.gradient @ place
         poses.append(found)
-        arrays.append(_placed(part, np.concatenate(own), kinds))
+        arrays.append(
+            (part.spread, slopes, place.T @ part.information @ place, gradient, part.pixels)
+        )
     cameras = _in_words("camera", [session.camera for session in sessions])
     boards = _in_words("board", [session.board_name for session in sessions])
     ends = [
@@ -228,16 +233,6 @@ def _lens_of(sessions: Sequence[Session]) -> tuple[Lens, str | None]:
 def _in_words(kind: str, names: Sequence[str]) -> list[str]:
     """Names of cameras or boards in a sentence."""
     return [f"{kind} {name}" if len(set(names)) > 1 else f"the {kind}" for name in names]
-
-
-def _placed(part: Optics, own: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarray, ...]:
-    """The arrays of a session's optics, with its columns among the cell's."""
-    count, size = len(part.slopes), len(kinds)
-    slopes, gradient = np.zeros((count, 6, size)), np.zeros((count, size))
-    information = np.zeros((count, size, size))
-    slopes[..., own], gradient[:, own] = part.slopes, part.gradient
-    information[:, own[:, None], own] = part.information
-    return part.spread, slopes, information, gradient, part.pixels
 
 
 def _views(path: Path, rows: Measurements, board: Board, size: tuple[int, int]) -> list[Corners]:

@@ -34,8 +34,8 @@ ENOUGH = 40  # rows to try mistakes on
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: less is not reported
 
 
-class WrongNominal(RecalibError):
-    """Nominal positions that differ from the nominal arm's."""
+class Mistaken(RecalibError):
+    """A table, or its description, that contradicts itself or the nominal arm."""
 
 
 def check_nominal(
@@ -55,7 +55,7 @@ def check_nominal(
         base: (4, 4) m, the arm's base in the frame of the positions, if known.
         target: (4, 4) m in the tool link's frame, if known.
 
-    Raises WrongNominal: they differ by something else.
+    Raises Mistaken: they differ by something else.
     """
     known = np.eye(4) if base is None else base
     place = np.eye(4) if target is None else target
@@ -76,7 +76,7 @@ def check_nominal(
         reason = f"likely: {mistake}"
     else:
         reason = "no single mistake of zero, sign, order or unit explains it: is it another arm?"
-    raise WrongNominal(
+    raise Mistaken(
         f"nominal positions are up to {1e3 * gaps.max():.1f} mm from where the URDF's kinematics"
         f" put the tool; {reason}"
     )

@@ -16,7 +16,6 @@ from recalib.identification.validation import (
     WAYS,
 )
 from recalib.laboratory.report.doubts import doubts
-from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.templates import UNITS, render
 from recalib.laboratory.results import Results
 from recalib.spelling import counted
@@ -104,7 +103,7 @@ def notes(result: Results) -> list[str]:
 
 def _facts(result: Results) -> dict[str, object]:
     """What the templates name."""
-    data, validation, anywhere = result.data, result.validation, []
+    data, anywhere = result.data, []
     for one, words in (pair for pair in result.directions if pair[0].lasting):
         if result.geometry.model.free[one.parameter]:
             anywhere.append(words + "; try: describe [target]" * (len(data.tables) < 2))
@@ -118,13 +117,26 @@ def _facts(result: Results) -> dict[str, object]:
         "most": MOST,
         "files": names[0] if len(names) == 1 else names and f"{len(names)} folders",
         "fit": corrected,
-        "cameras": [
-            (name, *(pixel_error(result, kind, sight) for kind in (validation.chosen, NOTHING)))
-            for sight, name in enumerate(data.sight_names if data.lens_files else [])
-        ],
+        "cameras": [*_cameras(result)] if data.lens_files else [],
         "open_anywhere": anywhere,
         "joints": [*_joints(result)],
     }
+
+
+def _cameras(result: Results) -> Iterator[tuple[str, float, float]]:
+    """Mean errors of corners [px] in held-out pictures, corrected and by the nominal arm."""
+    sights, held_out = result.data.observations.targets, result.validation.held_out[BLOCKWISE]
+    for sight, name in enumerate(result.data.sight_names):
+        own = result.counted[sights[result.counted] == sight]
+        kinds = result.validation.chosen, NOTHING
+        error, nominal = (pixel_error(held_out[kind], own) for kind in kinds)
+        yield name, error, nominal
+
+
+def pixel_error(held_out: HeldOut, rows: np.ndarray) -> float:
+    """The mean over rows by cameras of how far corners are off [px]."""
+    assert held_out.optics is not None
+    return float(held_out.optics.moved(held_out.residuals)[rows].mean())
 
 
 def _joints(result: Results) -> Iterator[dict[str, object]]:

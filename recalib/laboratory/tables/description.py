@@ -6,7 +6,7 @@ from os import PathLike
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
@@ -16,7 +16,6 @@ from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance", "wear"
 EXACT = 1e-6  # m, rad: how well a number without a deviation is known where others have one
-ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
 
 @dataclass(frozen=True)
@@ -88,22 +87,18 @@ def _pose(part: str, parts: Mapping[str, Any]) -> tuple[np.ndarray | None, np.nd
     if part not in parts:
         return None, None
     given = parts[part]
-    if not isinstance(given, dict) or not given or given.keys() - ORIGIN.keys():
-        raise InvalidSetting(part, given, f"{' and '.join(ORIGIN)}")
-    numbers = ORIGIN | given
-    pose = np.eye(4)
-    pose[:3, 3], along = _vector(f"{part}.position", numbers["position"], LENGTH)
-    turns, about = _vector(f"{part}.roll_pitch_yaw", numbers["roll_pitch_yaw"], ANGLE)
-    pose[:3, :3] = Rotation.from_euler("xyz", turns).as_matrix()
+    if not isinstance(given, dict) or not given or given.keys() - {"position", "roll_pitch_yaw"}:
+        raise InvalidSetting(part, given, "position and roll_pitch_yaw")
+    vectors = []
+    for name, kind in (("position", LENGTH), ("roll_pitch_yaw", ANGLE)):
+        key, numbers = f"{part}.{name}", given.get(name, [kind.write(0.0)] * 3)
+        if not isinstance(numbers, list) or len(numbers) != 3:
+            raise InvalidSetting(key, numbers, 'a list of three quantities such as "3 mm +- 1 mm"')
+        vectors.append(np.array([within(key, number, kind) for number in numbers]).T)
+    (place, along), (turns, about) = vectors
+    pose = RigidTransform.from_components(place, Rotation.from_euler("xyz", turns)).as_matrix()
     deviations = np.concatenate([along, about])
     return pose, np.maximum(deviations, EXACT) if deviations.any() else None
-
-
-def _vector(key: str, given: Any, kind: Quantity) -> np.ndarray:
-    """Values and deviations (2, 3) of quantities such as "3 mm" or "3 mm +- 1 mm"."""
-    if not isinstance(given, list) or len(given) != 3:
-        raise InvalidSetting(key, given, 'a list of three quantities such as "3 mm +- 1 mm"')
-    return np.array([within(key, quantity, kind) for quantity in given]).T
 
 
 def within(key: str, given: Any, kind: Quantity, default: float = 0.0) -> tuple[float, float]:

@@ -52,13 +52,9 @@ class Table:
     ) -> dict[str, np.ndarray]:
         """The arrays of all columns by `Columns.name`: (n,) of a single column, else (n, k).
 
-        Args:
-            layout: all columns that the table may have.
-            others: further columns that it may have.
-            note: why an angle may be unknown, for the message.
-
-        Raises InvalidFile: unknown or missing columns, another unit, a cell that holds something
-        else.
+        The table may have the columns of the layout and others. The note in messages is why an
+        angle may be unknown. Raises InvalidFile: unknown or missing columns, another unit, a cell
+        that holds something else.
         """
         valid = [*others, *(heading for columns in layout for heading in columns.headings)]
         for column in self.cells:

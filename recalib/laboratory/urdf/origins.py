@@ -13,7 +13,7 @@ from xml.parsers import expat
 
 import numpy as np
 import pinocchio as pin
-from scipy.spatial.transform import Rotation
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from recalib.errors import UnsuitableRobot
 from recalib.files.xml import encoding
@@ -26,10 +26,7 @@ _TAG = re.compile(rb"</?(?P<prefix>(?:[^\s:>\"']+:)?)(?:[^>\"']|\"[^\"]*\"|'[^']
 
 
 def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]:
-    """The URDF of the nominal arm with corrected geometry, and the link that is the tool there.
-
-    Args:
-        source: the file from which the nominal arm was read.
+    """The nominal arm's URDF with corrected geometry, and the link that is the tool there.
 
     Raises UnsuitableRobot: joints inside entities, which have no place in the file.
     """
@@ -54,12 +51,9 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
 
 
 def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = "") -> bytes:
-    """A URDF with other origins (4, 4) [m] for the named joints; nothing else changes.
+    """A URDF with other origins (4, 4) [m] for the named joints, and with XML added at its end.
 
-    Args:
-        added: XML to insert at its end.
-
-    Raises UnsuitableRobot, as `corrected_urdf`.
+    Nothing else changes. Raises UnsuitableRobot, as `corrected_urdf`.
     """
     code = encoding(source)
     text = source.decode(code).encode("utf-8")
@@ -90,10 +84,8 @@ def offset_poses(calibration: Calibration) -> np.ndarray:
     arm = calibration.model.nominal
     offsets = calibration.model.coefficients(calibration.estimate.parameters)["offset"]
     moves, slides = arm.axes * offsets[:, None], arm.slides[:, None]
-    poses = np.tile(np.eye(4), (len(moves), 1, 1))
-    poses[:, :3, :3] = Rotation.from_rotvec(np.where(slides, 0.0, moves)).as_matrix()
-    poses[:, :3, 3] = np.where(slides, moves, 0.0)
-    return poses
+    turns = Rotation.from_rotvec(np.where(slides, 0.0, moves))
+    return RigidTransform.from_components(np.where(slides, moves, 0.0), turns).as_matrix()
 
 
 def angles_of(pose: np.ndarray) -> np.ndarray:
@@ -146,10 +138,8 @@ def _pose(origin: ElementTree.Element | None) -> np.ndarray:
 def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int, str]:
     """First and last byte of each joint's origin, or of where it would be inserted.
 
-    Args:
-        text: in UTF-8, whatever encoding it declares.
-
-    Returns also where the root ends, and the prefix of a namespace before the names of tags.
+    Also where the root ends, and the prefix of a namespace before the names of tags. The text is in
+    UTF-8, whatever encoding it declares.
     """
     spans: dict[str, tuple[int, int]] = {}
     path: list[tuple[str, int]] = []  # names, and where tags end that end their element, else 0
