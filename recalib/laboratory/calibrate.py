@@ -44,10 +44,6 @@ class Calibrated(Results):
         return summary(self)
 
 
-def silent(line: str) -> None:
-    """Report no progress."""
-
-
 def calibrate(
     arm: Arm,
     joints: ArrayLike,
@@ -59,7 +55,7 @@ def calibrate(
     times: ArrayLike | None = None,
     instrument: ArrayLike | None = None,
     target: ArrayLike | None = None,
-    on_progress: Progress = silent,
+    on_progress: Progress = lambda line: None,
 ) -> Calibrated:
     """Identify the errors of an arm from arrays of measurements.
 
@@ -138,7 +134,7 @@ def calibrate_arm(
     description: AnyPath | Description | None = None,
     tool: str | None = None,
     base: str | None = None,
-    on_progress: Progress = silent,
+    on_progress: Progress = lambda line: None,
 ) -> Calibrated:
     """Identify the errors of an arm from a table of measurements.
 
@@ -171,7 +167,7 @@ def opened(
 
 
 def identified(
-    arm: Arm, data: DataSet, urdf: UrdfFile | None = None, on_progress: Progress = silent
+    arm: Arm, data: DataSet, urdf: UrdfFile | None = None, on_progress: Progress = lambda line: None
 ) -> Calibrated:
     """Identify the errors of an arm, and validate them. Raises as `calibrate_arm`."""
     moving = counted(len(arm.joints), "joint")

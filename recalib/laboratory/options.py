@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 from recalib import __version__
 from recalib.errors import InvalidQuantity, UnknownName
 from recalib.files.quantities import LENGTH
-from recalib.laboratory.tables.columns import described
+from recalib.laboratory.tables.columns import MEASURED
 
 FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 DONE, REFUSED, NO_BETTER = 0, 1, 3
@@ -155,7 +155,9 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 def _columns() -> str:
     """The columns of a table of measurements, for `recalib calibrate --help`."""
-    lines = (f"  {headings:<48}{meaning}" for headings, meaning in described())
+    joint = "JOINT [deg]", "each joint by its name in the URDF, as the controller reports it"
+    others = ((", ".join(columns.written), columns.meaning) for columns in MEASURED)
+    lines = (f"  {headings:<48}{meaning}" for headings, meaning in (joint, *others))
     return "\n".join(["columns of a table of measurements:", *lines, "", ""])
 
 

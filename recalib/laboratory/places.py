@@ -29,22 +29,15 @@ STEP = 1e-4  # of a parameter's prior deviation, to either side
 class Place:
     """The identified pose of an instrument, a target or a socket.
 
-    Attributes:
-        name: in words.
-        link: in whose frame the pose is.
-        turned: whether the rotation is known.
-        pose: (4, 4) m.
-        deviations: standard deviations [m, rad] along the worst axis, relative to the calibrated
-            arm.
-        real_deviations: the same, relative to the real arm.
+    Deviations are standard deviations [m, rad] along the worst axis.
     """
 
-    name: str
-    link: str
-    turned: bool
-    pose: np.ndarray
-    deviations: tuple[float, float]
-    real_deviations: tuple[float, float]
+    name: str  # in words
+    link: str  # in whose frame the pose is
+    turned: bool  # whether the rotation is known
+    pose: np.ndarray  # (4, 4) m
+    deviations: tuple[float, float]  # relative to the calibrated arm
+    real_deviations: tuple[float, float]  # relative to the real arm
 
     @property
     def position(self) -> np.ndarray:
@@ -118,16 +111,13 @@ def found_places(
     ]
 
 
-def hand_eye_places(
-    found: HandEye, names: Sequence[str], links: Sequence[str]
-) -> tuple[Place, Place]:
+def hand_eye_places(found: HandEye, names: Sequence[str], links: Sequence[str]) -> list[Place]:
     """A camera and a board by their names, in the links' frames, by a hand-eye calibration."""
     pairs = zip(names, links, (found.camera, found.board), strict=True)
-    camera, board = (
+    return [
         Place(name, link, True, pose, *[found.deviations(part)] * 2)
         for part, (name, link, pose) in enumerate(pairs)
-    )
-    return camera, board
+    ]
 
 
 def _has_instrument(frames: Frames) -> bool:

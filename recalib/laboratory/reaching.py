@@ -34,18 +34,11 @@ class NotReached(RecalibError):
 
 @dataclass(frozen=True)
 class Goals:
-    """Desired poses.
+    """Desired poses: of targets in the instrument's frame, or of the tool link in the base."""
 
-    Attributes:
-        poses: (n, 4, 4), or positions (n, 3) [m].
-        postures: (n, columns) rad, m to stay near to; None if any will do.
-        targets: (n,) numbers of the targets whose poses they are in the instrument's frame; None if
-            they are the tool link's in the arm's base.
-    """
-
-    poses: np.ndarray
-    postures: np.ndarray | None = None
-    targets: np.ndarray | None = None
+    poses: np.ndarray  # (n, 4, 4), or positions (n, 3) [m]
+    postures: np.ndarray | None = None  # (n, columns) rad, m to stay near to; None if any will do
+    targets: np.ndarray | None = None  # (n,) their numbers; None of the tool link
 
     @classmethod
     def of(cls, poses: ArrayLike, near: ArrayLike | None, coupling: Coupling) -> "Goals":

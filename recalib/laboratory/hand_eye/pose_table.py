@@ -36,17 +36,11 @@ _ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler's angles; no 
 
 @dataclass(frozen=True)
 class Convention:
-    """A way to write poses.
+    """A way to write poses."""
 
-    Attributes:
-        headings: of the rotation, in the order in which the controller shows it.
-        turns: the rotations of its numbers (n, k) [rad, 1].
-        length, angle: the units, unless the headings of a table have others.
-    """
-
-    headings: tuple[str, ...]
-    turns: Callable[[np.ndarray], Rotation]
-    length: str = ""
+    headings: tuple[str, ...]  # of the rotation, in the order in which the controller shows it
+    turns: Callable[[np.ndarray], Rotation]  # of its numbers (n, k) [rad, 1]
+    length: str = ""  # the unit, unless the headings of a table have another one
     angle: str = ""
 
 
@@ -105,20 +99,13 @@ def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
 
 @dataclass(frozen=True)
 class PoseTable:
-    """Poses, row by row.
-
-    Attributes:
-        table: the file's cells.
-        positions, rotations: (n, 3) m and n rotations.
-        turns: (n, k) rad or 1, the numbers of the rotations.
-        inverted: whether poses are wanted in the other direction.
-    """
+    """Poses, row by row."""
 
     table: Table
-    positions: np.ndarray
+    positions: np.ndarray  # (n, 3) m
     rotations: Rotation
-    turns: np.ndarray
-    inverted: bool = False
+    turns: np.ndarray  # (n, k) rad or 1, the numbers of the rotations
+    inverted: bool = False  # whether poses are wanted in the other direction
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -157,7 +144,11 @@ def read_poses(
     head, _, rest = text.partition("\n")
     table = table_of(f"{head.lower()}\n{rest}".encode(), path)
     if way is None or MATRIX[0] in table:
-        way = _by_headings(table)
+        way = next((own for own in OWN if all(name in table for name in own.headings)), None)
+    if way is None:
+        valid = listed((", ".join(own.headings) for own in OWN if own.headings != MATRIX), "or")
+        valid += "; or try: --convention, such as kuka"
+        raise InvalidFile(path, f"it has no rotation; expected: {valid}")
     kind = ANGLE if len(way.headings) == 3 else NUMBER
     layout = (
         Columns("positions", POSITIONS.headings, LENGTH, needed=True),
@@ -179,17 +170,6 @@ def read_poses(
     except ValueError as error:  # of SciPy: a mirrored matrix
         raise InvalidFile(path, f"it has a matrix that is not a rotation: {error}") from None
     return PoseTable(table, arrays["positions"], rotations, turns, inverted)
-
-
-def _by_headings(table: Table) -> Convention:
-    """The convention of rotations, by the headings. Raises InvalidFile if there is none."""
-    for way in OWN:
-        if all(heading in table for heading in way.headings):
-            return way
-    valid = listed((", ".join(way.headings) for way in OWN if way.headings != MATRIX), "or")
-    raise InvalidFile(
-        table.path, f"it has no rotation; expected: {valid}; or try: --convention, such as kuka"
-    )
 
 
 def _headed(text: str, path: Path, way: Convention | None) -> str:

@@ -4,7 +4,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import NoReturn
 
 import numpy as np
 
@@ -118,16 +117,16 @@ class AllowedPostures:
         It may stand as far from where it was sent as a station may miss that.
         """
         if problem := self._problem(start, REACHED):
-            self._refuse("stands", start, problem)
+            raise self._refusal("stands", start, *problem)
         for posture in self._between(start, goal):
             if problem := self._obstacle(posture, REACHED):
-                self._refuse("would pass", posture, problem)
+                raise self._refusal("would pass", posture, *problem)
 
-    def _refuse(self, what: str, joints: np.ndarray, problem: Problem) -> NoReturn:
+    def _refusal(self, what: str, joints: np.ndarray, found: str, expected: str) -> StationFailed:
         place = ", ".join(f"{1e3 * x:.0f}" for x in self.tool(joints))
-        raise StationFailed(
-            f"the arm {what} with its tool at ({place}) mm and {problem[0]}; expected:"
-            f" {problem[1]}; try: move it by hand to where the first row was measured"
+        return StationFailed(
+            f"the arm {what} with its tool at ({place}) mm and {found}; expected: {expected}; try:"
+            " move it by hand to where the first row was measured"
         )
 
     def _between(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:

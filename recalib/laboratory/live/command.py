@@ -37,7 +37,15 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
 
     Raises RecalibError, as `calibrate_live` and as what reads the options.
     """
-    arm, settings = load_arm(given.urdf, given.tool, given.base), _settings(given)
+    arm = load_arm(given.urdf, given.tool, given.base)
+    error = None if given.error is None else LENGTH.value_of("--error", given.error)
+    box = None if given.box is None else Box.read(given.box)
+    floor = None if given.floor == "none" else LENGTH.value_of("--floor", given.floor)
+    span, apart = ANGLE.value_of("--span", given.span), not given.no_self_collision
+    try:
+        settings = LiveSettings(error, given.most, span, box, given.speed, floor, apart)
+    except InvalidSetting as wrong:
+        raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
     if given.board is None and (given.lens or given.camera):
         raise InvalidSetting("--board", None, "a board for --lens and --camera")
     opening: Callable[[], Station] = partial(open_station, given.station)
@@ -73,18 +81,6 @@ def _signals_that_stop() -> Iterator[None]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-def _settings(given: argparse.Namespace) -> LiveSettings:
-    error = None if given.error is None else LENGTH.value_of("--error", given.error)
-    box = None if given.box is None else Box.read(given.box)
-    floor = None if given.floor == "none" else LENGTH.value_of("--floor", given.floor)
-    span = ANGLE.value_of("--span", given.span)
-    checked = not given.no_self_collision
-    try:
-        return LiveSettings(error, given.most, span, box, given.speed, floor, checked)
-    except InvalidSetting as wrong:
-        raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
 
 
 def _with_board(

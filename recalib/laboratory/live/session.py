@@ -80,17 +80,12 @@ class Answer(Enum):
 
 
 class Move(NamedTuple):
-    """A proposed move.
+    """A proposed move from start to goal."""
 
-    Attributes:
-        start, goal: (joints,) rad, m where the arm stands, and where it is to go.
-        tool_before, tool_after: (3,) m, the nominal tool there, in the arm's base.
-    """
-
-    start: np.ndarray
-    goal: np.ndarray
-    tool_before: np.ndarray
-    tool_after: np.ndarray
+    start: np.ndarray  # (joints,) rad, m where the arm stands
+    goal: np.ndarray  # (joints,) rad, m where it is to go
+    tool_before: np.ndarray  # (3,) m, the nominal tool in the arm's base
+    tool_after: np.ndarray  # likewise
 
 
 class Ended(NamedTuple):
@@ -150,7 +145,10 @@ def calibrate_live(
         postures = AllowedPostures(
             arm, home, station.limits(), settings.span, settings.box, clearance
         )
-        on_progress(_where_it_will_be(postures))
+        places = 1e3 * np.array([postures.tool(joints) for joints in postures.joints])
+        ends = zip("xyz", places.min(axis=0), places.max(axis=0), strict=True)
+        ranges = ", ".join(f"{axis} from {low:.0f} to {high:.0f} mm" for axis, low, high in ends)
+        on_progress(f"the tool's range in all candidate postures, in the arm's base: {ranges}")
         if not (shapes and shapes.ngeoms) and (settings.floor is not None or checks[1]):
             on_progress(
                 "the URDF has no readable link shapes: floor and self-collision are not checked for"
@@ -175,14 +173,6 @@ def calibrate_live(
         if station is not None:
             station.close()
         record.close()
-
-
-def _where_it_will_be(postures: AllowedPostures) -> str:
-    """The range of all goals, in words."""
-    places = 1e3 * np.array([postures.tool(joints) for joints in postures.joints])
-    ends = zip("xyz", places.min(axis=0), places.max(axis=0), strict=True)
-    ranges = ", ".join(f"{axis} from {low:.0f} to {high:.0f} mm" for axis, low, high in ends)
-    return f"the tool's range in all candidate postures, in the arm's base: {ranges}"
 
 
 @dataclass(frozen=True)

@@ -51,13 +51,10 @@ def observe(
     """Find a board in pictures.
 
     Args:
-        folder: of the pictures.
         joints: a table (CSV) with a column `picture`, which names them.
         board: the description of the board (TOML), which has the name of the file.
         lens: a calibration of the lens (YAML of ROS or OpenCV; default: estimated).
-        in_hand: whether the camera is on the hand.
-        on_progress: called with the current step, in a line each.
-        camera: the name of the camera, among several.
+        camera: its name, among several.
         least: how many pictures have to be of use.
 
     Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.

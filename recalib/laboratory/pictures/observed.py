@@ -33,29 +33,17 @@ UNSETTLED = (
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture and the corners found in it.
+    """A picture and the corners found in it."""
 
-    Attributes:
-        row: in the table, from 1.
-        name: of the file.
-        size: width and height [px]; None if it cannot be read.
-        small: a small grey copy for the page; None likewise.
-        digest: of the pixels.
-        corners: None if it is refused.
-        reason: why it is refused; empty if it is not.
-        error: px, the root mean square of the corners' reprojection errors.
-        pose: (4, 4) m of the board in the camera.
-    """
-
-    row: int
-    name: str
-    size: tuple[int, int] | None = None
-    small: np.ndarray | None = None
-    digest: str = ""
-    corners: Corners | None = None
-    reason: str = ""
-    error: float = np.nan
-    pose: np.ndarray | None = None
+    row: int  # in the table, from 1
+    name: str  # of the file
+    size: tuple[int, int] | None = None  # width and height [px]; None if it cannot be read
+    small: np.ndarray | None = None  # a small grey copy for the page; None likewise
+    digest: str = ""  # of the pixels
+    corners: Corners | None = None  # None if it is refused
+    reason: str = ""  # why it is refused; empty if it is not
+    error: float = np.nan  # px, the root mean square of the corners' reprojection errors
+    pose: np.ndarray | None = None  # (4, 4) m of the board in the camera
 
     def refused(self, reason: str) -> "Picture":
         """The same picture, refused."""
@@ -64,28 +52,17 @@ class Picture:
 
 @dataclass(frozen=True)
 class Observed:
-    """Corners, lens and refusals of a folder of pictures.
+    """Corners, lens and refusals of a folder of pictures."""
 
-    Attributes:
-        table: the joints of each picture.
-        board: in all pictures.
-        own: the lens estimated from these pictures.
-        given: the lens, if it is known; otherwise the estimated one counts.
-        in_hand: whether the camera is on the hand.
-        pictures: all of the table.
-        unlisted: names of pictures that are not in the table.
-        camera, board_name: their names among several.
-    """
-
-    table: Table
-    board: Board
-    own: FoundLens
-    given: Lens | None
-    in_hand: bool
-    pictures: Sequence[Picture]
-    unlisted: Sequence[str]
-    camera: str = "camera"
-    board_name: str = "board"
+    table: Table  # with the joints of each picture
+    board: Board  # in all pictures
+    own: FoundLens  # estimated from these pictures
+    given: Lens | None  # if it is known; otherwise the estimated one counts
+    in_hand: bool  # whether the camera is on the hand
+    pictures: Sequence[Picture]  # all of the table
+    unlisted: Sequence[str]  # names of pictures that are not in the table
+    camera: str = "camera"  # its name among several
+    board_name: str = "board"  # likewise
 
     @property
     def lens(self) -> Lens:

@@ -3,7 +3,7 @@
 Each folder has pictures of one board by one camera. Folders may share a camera, or a board.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from os import PathLike
@@ -18,7 +18,7 @@ from recalib.files.quantities import NUMBER, Quantity
 from recalib.files.storage import read_toml
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import BOARD, Optics
-from recalib.laboratory.calibrate import Calibrated, identified, opened, silent
+from recalib.laboratory.calibrate import Calibrated, Progress, identified, opened
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.options import CAMERAS, IN_HAND
 from recalib.laboratory.pictures.observed import (
@@ -55,27 +55,17 @@ SMALLEST, BENT = 3.0, 0.3  # px of a board, rms; the part of that which distorti
 
 @dataclass(frozen=True)
 class Session:
-    """Pictures of a board by a camera.
+    """Pictures of a board by a camera."""
 
-    Attributes:
-        folder: that observe wrote.
-        camera, board_name: their names.
-        in_hand: whether the camera is on the hand.
-        fitted: whether the lens is estimated from the pictures.
-        board, lens: in all pictures.
-        rows: of the table.
-        views: the corners in each row's picture.
-    """
-
-    folder: Path
+    folder: Path  # that observe wrote
     camera: str
     board_name: str
-    in_hand: bool
-    fitted: bool
-    board: Board
-    lens: Lens
+    in_hand: bool  # whether the camera is on the hand
+    fitted: bool  # whether the lens is estimated from the pictures
+    board: Board  # in all pictures
+    lens: Lens  # likewise
     rows: Measurements
-    views: list[Corners]
+    views: list[Corners]  # the corners in each row's picture
 
     @classmethod
     def read(cls, folder: Path, arm: Arm) -> "Session":
@@ -127,7 +117,7 @@ def calibrate_pictures(
     description: str | PathLike[str] | Description | None = None,
     tool: str | None = None,
     base: str | None = None,
-    on_progress: Callable[[str], None] = silent,
+    on_progress: Progress = lambda line: None,
 ) -> Calibrated:
     """Identify the errors of an arm from folders that `recalib observe` wrote.
 

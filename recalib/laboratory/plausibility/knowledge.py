@@ -49,7 +49,11 @@ def checked_frames(arm: Arm, observations: Observations, known: Description) -> 
             without[wrong] = initial_frames(arm, observations, **right)
             errors[wrong] = median_error(without[wrong], tool, observations)
     if not without:
-        mistake = mistake_in(arm, observations) or _of_rotations(arm, observations)
+        mistake = mistake_in(arm, observations)
+        if mistake is None and observations.kinds == 2:
+            with suppress(NoInitialEstimate):
+                initial_frames(arm, replace(observations, measured=observations.positions))
+                mistake = "rotations of another frame or in another notation: positions alone fit"
         raise NoInitialEstimate(f"{problem}; likely: {mistake}") if mistake else problem
     likely = [wrong for wrong in errors if errors[wrong] <= ALIKE * min(errors.values())]
     wrong = min(likely, key=lambda names: (len(names), errors[names]))
@@ -74,16 +78,6 @@ def mistake_in(arm: Arm, observations: Observations, frames: Frames | None = Non
         most = 2 if frames is None else 1  # of rows that fit, more would be guesses
         if mistake := likely_mistake(arm, observations.joints, part, FARTHEST, most, frames):
             return mistake
-    return None
-
-
-def _of_rotations(arm: Arm, observations: Observations) -> str | None:
-    """That only the rotations are wrong, in words; None otherwise."""
-    if observations.kinds == 1:
-        return None
-    with suppress(NoInitialEstimate):
-        initial_frames(arm, replace(observations, measured=observations.positions))
-        return "rotations of another frame or in another notation: positions alone fit"
     return None
 
 

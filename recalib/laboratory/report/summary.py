@@ -84,10 +84,9 @@ def verdict(result: Results) -> str:
 
 def subject(result: Results) -> str:
     """Which arm it is."""
-    joints = f"an arm of {len(result.arm.joints)} joints"
-    return (
-        f"{result.urdf.origin if result.urdf else joints}, {result.arm.tool} in {result.arm.base}"
-    )
+    arm = result.arm
+    name = result.urdf.origin if result.urdf else f"an arm of {len(arm.joints)} joints"
+    return f"{name}, {arm.tool} in {arm.base}"
 
 
 def summary(result: Results) -> str:

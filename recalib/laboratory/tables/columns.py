@@ -4,7 +4,6 @@ Reading, checking and `recalib calibrate --help` follow from here. A further col
 `MEASURED`; what uses it asks `Measurements.columns` for it by its name.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER, TIME, Quantity
@@ -15,23 +14,14 @@ TEXT = Quantity("a text", {})
 
 @dataclass(frozen=True)
 class Columns:
-    """Columns that are given together, or not at all.
+    """Columns that are given together, or not at all."""
 
-    Attributes:
-        name: of the array that they become.
-        headings: in a table.
-        quantity: what they hold.
-        meaning: for people.
-        units: that we write.
-        needed: whether a table must have them.
-    """
-
-    name: str
+    name: str  # of the array that they become
     headings: tuple[str, ...]
-    quantity: Quantity
-    meaning: str = ""
-    unit: str = ""
-    needed: bool = False
+    quantity: Quantity  # what they hold
+    meaning: str = ""  # for people
+    unit: str = ""  # that we write
+    needed: bool = False  # whether a table must have them
 
     @property
     def written(self) -> list[str]:
@@ -93,10 +83,3 @@ MEASURED = (
     *(FAKE_POSITIONS, FAKE_ROTATIONS),
 )
 DESIRED = (POSITIONS, *ROTATIONS, TARGETS, PICTURES)
-
-
-def described() -> Iterator[tuple[str, str]]:
-    """Headings with their units, and meanings, for people who write a table."""
-    yield "JOINT [deg]", "each joint by its name in the URDF, as the controller reports it"
-    for columns in MEASURED:
-        yield ", ".join(columns.written), columns.meaning

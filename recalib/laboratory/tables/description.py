@@ -62,8 +62,11 @@ def read_description(path: str | PathLike[str]) -> Description:
         instrument, instrument_deviations = _pose("instrument", parts)
         target, target_deviations = _pose("target", parts)
         encoders, links = _wear(parts.get("wear", {}))
+        columns = parts.get("columns", {})
+        if not isinstance(columns, dict) or not all(isinstance(to, str) for to in columns.values()):
+            raise InvalidSetting("columns", columns, 'lines such as joint_1 = "elbow_joint [deg]"')
         return Description(
-            _columns(parts.get("columns", {})),
+            columns,
             instrument,
             target,
             distances_of(parts.get("distance", [])),
@@ -74,12 +77,6 @@ def read_description(path: str | PathLike[str]) -> Description:
         )
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
-
-
-def _columns(given: Any) -> dict[str, str]:
-    if not isinstance(given, dict) or not all(isinstance(name, str) for name in given.values()):
-        raise InvalidSetting("columns", given, 'lines such as joint_1 = "elbow_joint [deg]"')
-    return given
 
 
 def _pose(part: str, parts: Mapping[str, Any]) -> tuple[np.ndarray | None, np.ndarray | None]:

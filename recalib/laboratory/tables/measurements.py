@@ -49,21 +49,14 @@ TURNS = {
 
 @dataclass(frozen=True)
 class Measurements:
-    """Rows of a table, in SI units.
+    """Rows of a table, in SI units. See `Coupling` for joints that follow others."""
 
-    Attributes:
-        path: of the table, for messages.
-        joints: (n, columns) rad, or m where a joint slides, that the controller reported; None in a
-            table without joints. See `Coupling` for joints that follow others.
-        measured: poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame; None
-            without either.
-        columns: all other columns of the table, by their names in `tables.columns`.
-    """
-
-    path: Path
+    path: Path  # of the table, for messages
+    # (n, columns) rad, or m where a joint slides, that the controller reported, if the table has it
     joints: np.ndarray | None
+    # poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame, if it has any
     measured: np.ndarray | None
-    columns: Mapping[str, np.ndarray]
+    columns: Mapping[str, np.ndarray]  # all others, by their names in `tables.columns`
 
     def __len__(self) -> int:
         rows = self.measured if self.joints is None else self.joints

@@ -27,19 +27,12 @@ MOST, MOST_ROWS = 32_000_000, 10_000  # bytes; rows, which a computer calibrates
 
 @dataclass(frozen=True)
 class Table:
-    """The cells of a table, by column. Rows are counted from 1, without the header.
+    """The cells of a table, by column. Rows are counted from 1, without the header."""
 
-    Attributes:
-        path: of the file, for messages.
-        units: of each column, empty where the header has none.
-        cells: of each column, as many as there are rows.
-        headings: of each column in the file, where a description gives it another one.
-    """
-
-    path: Path
-    units: Mapping[str, str]
-    cells: Mapping[str, list[str]]
-    headings: Mapping[str, str]
+    path: Path  # of the file, for messages
+    units: Mapping[str, str]  # of each column, empty where the header has none
+    cells: Mapping[str, list[str]]  # of each column, as many as there are rows
+    headings: Mapping[str, str]  # in the file, where a description gives a column another one
 
     def __len__(self) -> int:
         return len(next(iter(self.cells.values())))
