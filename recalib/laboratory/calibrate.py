@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from recalib.arrays import array_of, check_rotations, check_size
 from recalib.errors import InvalidSetting
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import LENGTH, TIME
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.scales import returning, scales
@@ -31,7 +31,6 @@ from recalib.nominal.descriptions import UrdfFile
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted
 
-AnyPath = str | PathLike[str]
 Progress = Callable[[str], None]
 ARRAYS = Path("the arrays")  # what messages call measurements without a file
 

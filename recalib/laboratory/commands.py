@@ -124,11 +124,8 @@ def live(options: Options) -> int:
     ended = measure_live(options, print_progress)
     print_progress(f"ended: {ended.reason}")
     if ended.rows < FEWEST:
-        rows = counted(ended.rows, "row")
-        print(
-            f"{rows} in {options.table}; a calibration needs {FEWEST}; to continue, repeat the"
-            " command"
-        )
+        more = f"a calibration needs {FEWEST}; to continue, repeat the command"
+        print(f"{counted(ended.rows, 'row')} in {options.table}; {more}")
         return DONE
     options.measurements = [options.table]
     if options.board is not None:  # all corners together determine more, also of the lens
@@ -263,5 +260,4 @@ def observe(options: Options) -> int:
 
 
 def print_progress(line: str) -> None:
-    """Print a line about progress on stderr."""
     print(f"... {line}", file=sys.stderr, flush=True)

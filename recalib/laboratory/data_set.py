@@ -13,7 +13,6 @@ from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.kinematics import Arm
 
-INSTRUMENT: tuple[str, ...] = ("the instrument",)
 TARGET: tuple[str, ...] = ("the target",)
 
 
@@ -24,7 +23,7 @@ class DataSet:
     observations: Observations
     targets: tuple[str, ...] = TARGET
     sockets: tuple[str, ...] = ()
-    instruments: tuple[str, ...] = INSTRUMENT
+    instruments: tuple[str, ...] = ("the instrument",)
     known: Description = field(default_factory=Description)  # frames that the user gives
     # (s, 2) the numbers of instrument and target of each sight; None if there is one instrument
     sights: np.ndarray | None = None

@@ -23,7 +23,6 @@ class Parser(argparse.ArgumentParser):
     """Refuses as commands do: in one sentence, with the same exit code."""
 
     def error(self, message: str) -> NoReturn:
-        """Print what is wrong, and leave."""
         self.exit(REFUSED, f"recalib: {message}; try: {self.prog} --help\n")
 
     def add(

@@ -51,7 +51,6 @@ class Place:
 
     @property
     def rotation(self) -> Rotation:
-        """As SciPy has it."""
         return Rotation.from_matrix(self.pose[:3, :3])
 
     @property

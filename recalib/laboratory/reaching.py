@@ -15,7 +15,7 @@ from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
 from recalib.nominal.kinematics import Arm, Coupling
 from recalib.nominal.newton import solve_groups
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import orientation_error
 from recalib.spelling import listed
 
 TOLERANCE = 1e-8  # m, rad
@@ -121,19 +121,14 @@ def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np
     goal, joints = goals[rows[:1]], found[rows[0]]
     if errors[rows[0]] > TOLERANCE:
         (pose,) = poses_at(calibration, joints[None], goal.targets)
-        gap = _gap(pose, goal.reachable(arm).poses[0])
+        (wanted,) = goal.reachable(arm).poses
+        gap = f"{1e3 * np.linalg.norm(pose[:3, 3] - goal.positions[0]):.4g} mm"
+        if wanted.ndim == 2:
+            gap += f" and {np.degrees(orientation_error(pose, wanted)):.4g} deg"
         raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
     low, high = arm.coupling.limits
     names = listed(np.array(arm.coupling.columns)[(joints < low) | (joints > high)], "and")
     raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
-
-
-def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
-    """How far a pose (4, 4) is from a desired pose or position, in words."""
-    if goal.ndim == 1:
-        return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
-    position, orientation = position_error(pose, goal), orientation_error(pose, goal)
-    return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"
 
 
 def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> list[np.ndarray]:

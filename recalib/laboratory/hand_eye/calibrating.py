@@ -1,6 +1,5 @@
 """Hand-eye calibration from flange poses and pictures or poses of a board, and its files."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.identification.hand_eye import HandEye, Sights, calibrate_hand_eye, held_out
 from recalib.identification.model.optics import BOARD
+from recalib.laboratory.calibrate import Progress
 from recalib.laboratory.hand_eye.mistakes import FEWEST, WRONG, check_fit, check_motion
 from recalib.laboratory.hand_eye.pose_table import PoseTable
 from recalib.laboratory.pictures.observe import observe, pictures_in
@@ -24,9 +24,6 @@ from recalib.vision.views import optics_of, sighting
 
 HAND_EYE, POSES = "hand_eye.toml", "poses.csv"
 MOST = 1 / 3  # of the poses: if more are outliers, nothing is certain
-
-
-Progress = Callable[[str], None]  # called with the current step, in a line each
 
 
 def pictures_at(
@@ -63,7 +60,6 @@ def calibrate_poses(
     Args:
         flange: its poses in the base.
         shown: of the board, by pictures, or its poses in the camera, row by row.
-        in_hand: whether the camera is on the hand.
         height: m, and its standard deviation; see `Sights`.
 
     Raises RecalibError: poses that do not determine it, or are likely mistaken.

@@ -138,8 +138,20 @@ def _check_size(scale: float, deviation: float) -> None:
 def _check_readings(
     sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
 ) -> None:
-    """Raise Mistaken if poses that are read otherwise fit much better."""
-    fits = [(_misfit(other), words) for words, other in _others(sights, flange, targets)]
+    """Raise Mistaken if poses that are read otherwise, the simplest first, fit much better."""
+    side, option = ("fixed", "fixed") if sights.in_hand else ("on the hand", "hand")
+    direction = f"the camera is {side} (--camera {option}), or"
+    direction += " the flange's poses are those of the base in it (--inverse flange)"
+    boards = [("", sights.board)]
+    if targets is not None:
+        direction += ", or the target's are those of the camera in it (--inverse targets)"
+        boards = [*_readings("target", "--target-convention", targets)]
+    fits = []
+    for theirs, board in boards:
+        for own, poses in _readings("flange", "--convention", flange):
+            for way, right in (("", poses), (direction, np.linalg.inv(poses))):
+                if words := ", and ".join(filter(None, (way, own, theirs))):
+                    fits.append((_misfit(replace(sights, flange=right, board=board)), words))
     best, words = min(fits, key=lambda fit: fit[0])
     remain = f"({1e3 * remaining:.3g} mm remain)"
     if best < EXPLAINED * _misfit(sights):
@@ -150,25 +162,6 @@ def _check_readings(
             f"the poses do not fit in any direction and convention {remain}; are rows and"
             " pictures in the same order?"
         )
-
-
-def _others(
-    sights: Sights, flange: PoseTable, targets: PoseTable | None
-) -> Iterator[tuple[str, Sights]]:
-    """Other ways to read the poses, in words, the simplest first."""
-    side, option = ("fixed", "fixed") if sights.in_hand else ("on the hand", "hand")
-    direction = f"the camera is {side} (--camera {option}), or"
-    direction += " the flange's poses are those of the base in it (--inverse flange)"
-    boards = [("", sights.board)]
-    if targets is not None:
-        direction += ", or the target's are those of the camera in it (--inverse targets)"
-        boards = [*_readings("target", "--target-convention", targets)]
-    for theirs, board in boards:
-        for own, poses in _readings("flange", "--convention", flange):
-            for flipped, way in enumerate(("", direction)):
-                right = np.linalg.inv(poses) if flipped else poses
-                if words := [*filter(None, (way, own, theirs))]:
-                    yield ", and ".join(words), replace(sights, flange=right, board=board)
 
 
 def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, np.ndarray]]:

@@ -5,13 +5,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
-from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from recalib.errors import InvalidFile, UnknownName
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER
 from recalib.files.storage import read_file
 from recalib.laboratory.tables.columns import (
@@ -122,10 +122,7 @@ class PoseTable:
 
 
 def read_poses(
-    path: str | PathLike[str],
-    convention: str | None = None,
-    unit: str | None = None,
-    inverted: bool = False,
+    path: AnyPath, convention: str | None = None, unit: str | None = None, inverted: bool = False
 ) -> PoseTable:
     """The poses in the table at `path`.
 

@@ -42,8 +42,7 @@ class Box:
             if low >= high:
                 raise InvalidSetting("--box", text, "a range from its lower end to its upper end")
             ends.append((low, high))
-        lower, upper = np.array(ends).T
-        return cls(lower, upper)
+        return cls(*np.array(ends).T)
 
 
 class AllowedPostures:
@@ -57,9 +56,6 @@ class AllowedPostures:
             too, and the outermost part of each joint's range is left out.
         span, box: see `LiveSettings`.
         clearance: what must not touch in postures and on paths; default: anything may.
-
-    Attributes:
-        joints: (n, joints) rad, m, in the order in which they were drawn.
 
     Raises InvalidSetting: home is not allowed, or hardly anything else.
     """
@@ -95,12 +91,11 @@ class AllowedPostures:
                 f"{np.degrees(span):.3g} deg, with {len(found)} of {DRAWN} postures allowed",
                 f"at least {FEWEST}; try: more room, such as a wider --box or a lower --floor",
             )
-        self.joints = np.array(found)
+        self.joints = np.array(found)  # (n, joints) rad, m, in the order in which they were drawn
 
     def tool(self, joints: np.ndarray) -> np.ndarray:
         """The nominal tool's position (3,) [m] in the arm's base."""
-        place: np.ndarray = self._arm.forward(joints[None])[0, :3, 3]
-        return place
+        return self._arm.forward(joints[None])[0, :3, 3]
 
     def path(self, start: np.ndarray, goal: np.ndarray) -> list[np.ndarray]:
         """Where to go in turn, to be at an allowed posture at last: straight, or by way of home.

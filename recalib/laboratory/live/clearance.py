@@ -25,9 +25,6 @@ class Clearance:
         shapes: of its links; see `load_shapes`.
         floor, self_collision: see `LiveSettings`.
         tool_radius: m about the tool link's origin that what the tool carries may take.
-
-    Attributes:
-        pairs: the names of the shapes that keep apart.
     """
 
     def __init__(
@@ -40,7 +37,8 @@ class Clearance:
         tool_radius: float,
     ):
         self._model, self._data = arm.model, arm.model.createData()
-        self._shapes, self.pairs = pin.GeometryModel(), list[tuple[str, str]]()
+        self._shapes = pin.GeometryModel()
+        self.pairs: list[tuple[str, str]] = []  # the names of the shapes that keep apart
         self._margins: dict[float, pin.GeometryData] = {}
         frame = arm.model.frames[tool_frame(arm.model, arm.tool)]
         own = TOOL, frame.parentJoint, frame.placement, coal.Sphere(max(tool_radius, 1e-6))

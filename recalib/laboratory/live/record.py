@@ -37,11 +37,6 @@ class Record:
         description: what the table does not say itself.
         pictures: what those in its column `picture` say, which is used instead of its poses.
 
-    Attributes:
-        observations: the rows; None while there are none.
-        skipped: postures (n, joints) [rad, m].
-        dropped: the row without an end, if there was one.
-
     Raises InvalidFile: it is not such a table, or another process writes it.
     """
 
@@ -54,8 +49,8 @@ class Record:
     ):
         self.path, self._arm, self._description = Path(path), arm, description
         self.pictures = pictures
-        self.observations: Observations | None = None
-        self.dropped = ""
+        self.observations: Observations | None = None  # the rows; None while there are none
+        self.dropped = ""  # the row without an end, if there was one
         self._joints = joint_headings(arm, "rad", "m")
         self._skips = self.path.with_name(f"{self.path.stem}_skipped{self.path.suffix}")
         try:
@@ -93,7 +88,7 @@ class Record:
         elif not (content.startswith(start) or start.startswith(content)):
             raise InvalidFile(self.path, "it was not started by recalib live")
         os.ftruncate(self._file, len(self._content))
-        self.skipped = self._read_skipped()
+        self.skipped = self._read_skipped()  # (n, joints) rad, m
 
     def _read_skipped(self) -> np.ndarray:
         if not self._skips.exists():
@@ -118,11 +113,8 @@ class Record:
     ) -> tuple[Observations, bytes]:
         """The rows with a further one, and its text, before it is written.
 
-        Args:
-            angles: (joints,) rad, m where the arm stood.
-            cells: the measurements there, by the headers of its columns.
-
-        Raises InvalidFile: its columns are others than before, or its cells are not a measurement.
+        It has the angles (joints,) [rad, m] where the arm stood, and the cells measured there, by
+        headers. Raises InvalidFile: columns other than before, or cells that are no measurement.
         """
         names, row = [*self._joints, *map(str, cells)], [*angles.tolist(), *cells.values()]
         header = self._header if len(self) else names

@@ -104,10 +104,7 @@ class RunningCalibration:
         return float(self._expected(calibration, self._probes, optics, surprise).mean())
 
     def gain(self, observations: Observations, avoided: list[np.ndarray]) -> float:
-        """The fraction by which the next postures would reduce the predicted error.
-
-        These are the most informative ones, without `avoided` as in `next_posture`.
-        """
+        """The fraction by which the most informative postures would reduce the predicted error."""
         further = [*self._most_informative(observations, avoided, AHEAD)]
         if not further:
             return 0.0

@@ -177,10 +177,7 @@ def calibrate_live(
 
 @dataclass(frozen=True)
 class _Session:
-    """A calibration that goes on: the station, the rows so far, and the postures to come.
-
-    Those that a person skipped, or in which the target is not seen, are avoided.
-    """
+    """A calibration that goes on: the station, the rows so far, and the postures to come."""
 
     station: Guarded
     record: Record
@@ -188,7 +185,7 @@ class _Session:
     postures: AllowedPostures
     running: RunningCalibration
     on_progress: Callable[[str], None]
-    avoided: list[np.ndarray]
+    avoided: list[np.ndarray]  # skipped by a person, or without sight of the target; it grows
 
     def run(
         self,

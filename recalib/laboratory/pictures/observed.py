@@ -46,7 +46,6 @@ class Picture:
     pose: np.ndarray | None = None  # (4, 4) m of the board in the camera
 
     def refused(self, reason: str) -> "Picture":
-        """The same picture, refused."""
         return replace(self, corners=None, reason=reason, error=np.nan, pose=None)
 
 
@@ -82,11 +81,9 @@ class Observed:
 
     @property
     def doubt(self) -> str | None:
-        """See `doubt_of`."""
         return doubt_of(self.given, self.own, views_of(self.board, self.used))
 
     def summary(self) -> str:
-        """A page of text."""
         return render("observed.txt.j2", result=self, used=self.used)
 
     @property

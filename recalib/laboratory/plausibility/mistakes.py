@@ -17,12 +17,7 @@ from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.linearisation import LEVER, displacements
 from recalib.identification.model.observations import Observations
-from recalib.laboratory.plausibility.steps import (
-    Step,
-    rare_steps_of,
-    steps_of,
-    steps_of_rotations,
-)
+from recalib.laboratory.plausibility.steps import Step, rare_steps_of, steps_of, steps_of_rotations
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
 

@@ -132,7 +132,6 @@ def svg_of(figure: Figure) -> str:
 
 
 def page_of(result: Results) -> bytes:
-    """The page of a calibration."""
     parameters = result.identified
     decided = [parameter for parameter in parameters if parameter["decided_by"] == "data"]
     decided.sort(key=lambda parameter: -abs(parameter["value"]) / parameter["deviation"])

@@ -83,14 +83,12 @@ def verdict(result: Results) -> str:
 
 
 def subject(result: Results) -> str:
-    """Which arm it is."""
     arm = result.arm
     name = result.urdf.origin if result.urdf else f"an arm of {len(arm.joints)} joints"
     return f"{name}, {arm.tool} in {arm.base}"
 
 
 def summary(result: Results) -> str:
-    """A page of text."""
     texts = {"subject": subject(result), "verdict": verdict(result)}
     return render("summary.txt.j2", **texts, errors=errors_table(result), **_facts(result))
 

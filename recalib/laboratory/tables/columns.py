@@ -29,18 +29,14 @@ class Columns:
         return [f"{heading} [{self.unit}]" if self.unit else heading for heading in self.headings]
 
 
-def _axes(pattern: str) -> tuple[str, ...]:
-    return tuple(pattern.format(axis) for axis in "xyz")
-
-
 POSITIONS = Columns(
-    "positions", _axes("{}"), LENGTH, "position of the target in the instrument's frame", "mm"
+    "positions", ("x", "y", "z"), LENGTH, "position of the target in the instrument's frame", "mm"
 )
 QUATERNIONS = Columns(
     "quaternions", ("qx", "qy", "qz", "qw"), NUMBER, "its rotation, if measured: as a quaternion,"
 )
 ROTATION_VECTORS = Columns(
-    "rotation_vectors", _axes("r{}"), ANGLE, "or as a rotation vector,", "deg"
+    "rotation_vectors", ("rx", "ry", "rz"), ANGLE, "or as a rotation vector,", "deg"
 )
 ROLL_PITCH_YAW = Columns(
     "roll_pitch_yaw",
@@ -65,18 +61,28 @@ TIMES = Columns(
 )
 NOMINAL = Columns(
     "nominal",
-    _axes("{}_nominal"),
+    ("x_nominal", "y_nominal", "z_nominal"),
     LENGTH,
     "position according to the controller, which is compared with the URDF before the fit",
     "mm",
 )
 ERRORS = Columns(
-    "errors", _axes("{}_error"), LENGTH, "measured minus nominal position, instead of x, y, z", "mm"
+    "errors",
+    ("x_error", "y_error", "z_error"),
+    LENGTH,
+    "measured minus nominal position, instead of x, y, z",
+    "mm",
 )
 FAKE_POSITIONS = Columns(
-    "fake_positions", _axes("{}_fake"), LENGTH, "commands of recalib correct, ignored", "mm"
+    "fake_positions",
+    ("x_fake", "y_fake", "z_fake"),
+    LENGTH,
+    "commands of recalib correct, ignored",
+    "mm",
 )
-FAKE_ROTATIONS = Columns("fake_rotations", _axes("r{}_fake"), ANGLE, "as above", "deg")
+FAKE_ROTATIONS = Columns(
+    "fake_rotations", ("rx_fake", "ry_fake", "rz_fake"), ANGLE, "as above", "deg"
+)
 
 MEASURED = (
     *(POSITIONS, *ROTATIONS, TARGETS, SOCKETS, PICTURES, TIMES, NOMINAL, ERRORS),

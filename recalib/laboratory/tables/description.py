@@ -6,7 +6,7 @@ from os import PathLike
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import RigidTransform, Rotation
+from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
@@ -59,30 +59,24 @@ def read_description(path: str | PathLike[str]) -> Description:
         for part in parts:
             if part not in PARTS:
                 raise InvalidSetting("part", part, listed(PARTS, "or"))
-        instrument, instrument_deviations = _pose("instrument", parts)
-        target, target_deviations = _pose("target", parts)
-        encoders, links = _wear(parts.get("wear", {}))
         columns = parts.get("columns", {})
         if not isinstance(columns, dict) or not all(isinstance(to, str) for to in columns.values()):
             raise InvalidSetting("columns", columns, 'lines such as joint_1 = "elbow_joint [deg]"')
         return Description(
             columns,
-            instrument,
-            target,
-            distances_of(parts.get("distance", [])),
-            instrument_deviations,
-            target_deviations,
-            encoders,
-            links,
+            distances=distances_of(parts.get("distance", [])),
+            **_pose("instrument", parts),
+            **_pose("target", parts),
+            **_wear(parts.get("wear", {})),
         )
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
 
 
-def _pose(part: str, parts: Mapping[str, Any]) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """A pose (4, 4) [m], and its deviations (6,) [m, rad]; None if not stated."""
+def _pose(part: str, parts: Mapping[str, Any]) -> dict[str, Any]:
+    """The pose of an instrument or target and its deviations, as far as they are stated."""
     if part not in parts:
-        return None, None
+        return {}
     given = parts[part]
     if not isinstance(given, dict) or not given or given.keys() - {"position", "roll_pitch_yaw"}:
         raise InvalidSetting(part, given, "position and roll_pitch_yaw")
@@ -93,9 +87,11 @@ def _pose(part: str, parts: Mapping[str, Any]) -> tuple[np.ndarray | None, np.nd
             raise InvalidSetting(key, numbers, 'a list of three quantities such as "3 mm +- 1 mm"')
         vectors.append(np.array([within(key, number, kind) for number in numbers]).T)
     (place, along), (turns, about) = vectors
-    pose = RigidTransform.from_components(place, Rotation.from_euler("xyz", turns)).as_matrix()
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = Rotation.from_euler("xyz", turns).as_matrix(), place
     deviations = np.concatenate([along, about])
-    return pose, np.maximum(deviations, EXACT) if deviations.any() else None
+    stated = {f"{part}_deviations": np.maximum(deviations, EXACT)} if deviations.any() else {}
+    return {part: pose} | stated
 
 
 def within(key: str, given: Any, kind: Quantity, default: float = 0.0) -> tuple[float, float]:
@@ -104,17 +100,20 @@ def within(key: str, given: Any, kind: Quantity, default: float = 0.0) -> tuple[
     return _read(key, value, kind), _positive(key, deviation[0], kind) if deviation else default
 
 
-def _wear(given: Any) -> tuple[float, tuple[float, float] | None]:
-    """By how much encoders [rad] and links [m, rad] may be off; 0 and None if it is not stated."""
+def _wear(given: Any) -> dict[str, Any]:
+    """By how much encoders and links may be off, as far as it is stated."""
     if not isinstance(given, dict) or given.keys() - {"encoders", "links"}:
         raise InvalidSetting("wear", given, 'encoders = "1 deg" and links = ["2 mm", "0.1 deg"]')
     encoders, links = given.get("encoders"), given.get("links")
     if links is not None and (not isinstance(links, list) or len(links) != 2):
         raise InvalidSetting("wear.links", links, 'a length and an angle: ["2 mm", "0.1 deg"]')
-    pairs = zip(links or (), (LENGTH, ANGLE), strict=False)
-    off = [_positive("wear.links", text, kind) for text, kind in pairs]
-    angle = 0.0 if encoders is None else _positive("wear.encoders", encoders, ANGLE)
-    return angle, (off[0], off[1]) if off else None
+    stated: dict[str, Any] = {}
+    if links is not None:
+        pairs = zip(links, (LENGTH, ANGLE), strict=True)
+        stated["links"] = tuple(_positive("wear.links", text, kind) for text, kind in pairs)
+    if encoders is not None:
+        stated["encoders"] = _positive("wear.encoders", encoders, ANGLE)
+    return stated
 
 
 def _positive(key: str, text: Any, kind: Quantity) -> float:

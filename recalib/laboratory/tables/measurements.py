@@ -7,7 +7,7 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial.transform import RigidTransform, Rotation
+from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
 from recalib.files.quantities import ANGLE, LENGTH
@@ -262,5 +262,7 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
         row = int(wrong.argmax())
         found = f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; expected: 1"
         raise InvalidFile(path, found)
-    rotations = TURNS[kind](given[kind.name])
-    return RigidTransform.from_components(positions, rotations).as_matrix()
+    poses = np.tile(np.eye(4), (len(positions), 1, 1))
+    poses[:, :3, :3] = TURNS[kind](given[kind.name]).as_matrix()
+    poses[:, :3, 3] = positions
+    return poses

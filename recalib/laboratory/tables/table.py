@@ -8,12 +8,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from itertools import islice
-from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
 from recalib.errors import InvalidFile
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, TIME, Quantity
 from recalib.files.storage import read_file
 from recalib.laboratory.tables.columns import NAME, TEXT, Columns
@@ -129,24 +129,19 @@ class Table:
 
 
 def read_table(
-    path: str | PathLike[str], columns: Mapping[str, str] | None = None, most: int = MOST_ROWS
+    path: AnyPath, columns: Mapping[str, str] | None = None, most: int = MOST_ROWS
 ) -> Table:
     """The table at `path`; see `table_of`. Raises InvalidFile."""
     return table_of(read_file(path, MOST), path, columns, most)
 
 
 def table_of(
-    content: bytes,
-    path: str | PathLike[str],
-    columns: Mapping[str, str] | None = None,
-    most: int = MOST_ROWS,
+    content: bytes, path: AnyPath, columns: Mapping[str, str] | None = None, most: int = MOST_ROWS
 ) -> Table:
     """The table in a file's content: UTF-8, commas between cells, a header, rows below it.
 
     Args:
-        path: of the file, for messages.
         columns: by a heading of the file the heading that it should have, or "ignored".
-        most: rows.
 
     Raises InvalidFile: not such a table, or a heading in `columns` that it lacks.
     """

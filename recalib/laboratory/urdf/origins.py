@@ -8,12 +8,11 @@ directly, no origin is left to move it by: the corrected tool is a new link.
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from xml.etree import ElementTree
 from xml.parsers import expat
 
 import numpy as np
 import pinocchio as pin
-from scipy.spatial.transform import RigidTransform, Rotation
+from scipy.spatial.transform import Rotation
 
 from recalib.errors import UnsuitableRobot
 from recalib.files.xml import encoding
@@ -84,8 +83,10 @@ def offset_poses(calibration: Calibration) -> np.ndarray:
     arm = calibration.model.nominal
     offsets = calibration.model.coefficients(calibration.estimate.parameters)["offset"]
     moves, slides = arm.axes * offsets[:, None], arm.slides[:, None]
-    turns = Rotation.from_rotvec(np.where(slides, 0.0, moves))
-    return RigidTransform.from_components(np.where(slides, moves, 0.0), turns).as_matrix()
+    poses = np.tile(np.eye(4), (len(moves), 1, 1))
+    poses[:, :3, :3] = Rotation.from_rotvec(np.where(slides, 0.0, moves)).as_matrix()
+    poses[:, :3, 3] = np.where(slides, moves, 0.0)
+    return poses
 
 
 def angles_of(pose: np.ndarray) -> np.ndarray:
@@ -122,17 +123,13 @@ def _segments(
             fixed = np.eye(4)
             last = fixed, None
         else:
-            last = fixed, name
-            fixed = fixed @ _pose(joint.find("origin"))
+            last, origin = (fixed, name), joint.find("origin")
+            given = {} if origin is None else origin.attrib
+            place, angles = (
+                np.array(given.get(key, "0 0 0").split(), dtype=float) for key in ("xyz", "rpy")
+            )
+            fixed = fixed @ pin.SE3(pin.rpy.rpyToMatrix(angles), place).homogeneous
     return moving, last
-
-
-def _pose(origin: ElementTree.Element | None) -> np.ndarray:
-    given = {} if origin is None else origin.attrib
-    place, angles = (
-        np.array(given.get(name, "0 0 0").split(), dtype=float) for name in ("xyz", "rpy")
-    )
-    return pin.SE3(pin.rpy.rpyToMatrix(angles), place).homogeneous
 
 
 def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int, str]:
