@@ -49,7 +49,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
             epilog=f"{epilog}{EPILOGUE}",
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        folder = not Path(out).suffix
+        folder = not Path(out).suffix  # of its default
         own.set_defaults(folder=folder)
         own.add("--out", f"new {'folder' if folder else 'file'} to write", Path, out)
         return own

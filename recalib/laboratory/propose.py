@@ -28,8 +28,8 @@ def propose(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The most informative postures to measure, each given those before it.
 
-    They are (n, columns) rad, or m where a joint slides, as the controller reports. With the mean
-    deviation (n + 1,) [m] of predicted positions before and after each.
+    Returns their joints (n, columns) [rad, or m where one slides], as the controller reports them,
+    and the mean deviation (n + 1,) [m] of predicted positions before and after each.
 
     Args:
         count: how many.

@@ -87,10 +87,10 @@ def poses_at(
 def reach(
     calibration: Calibration, learned: np.ndarray, goals: Goals
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """From each start in turn, until a goal is reached: the best joints (n, columns) [rad, m].
+    """From each start in turn, until a goal is reached within the arm's limits.
 
-    With the errors (n,) [m or rad] that are left, and whether (n,) a goal is reached within limits.
-    Goals without postures start from learned ones (n, columns) [rad, m].
+    Goals without postures start from learned ones (n, columns) [rad, m]. Returns the best joints
+    (n, columns) [rad, m], the errors (n,) [m or rad] that are left, and which goals are reached.
     """
     arm, simple = calibration.model.nominal, goals.reachable(calibration.model.nominal)
     starts = _nearest(calibration, learned, goals) if goals.postures is None else [goals.postures]

@@ -101,7 +101,7 @@ def _files(found: HandEye, table: str, shown: Observed | None, good: bool) -> di
     else:
         names = [picture.name for picture in shown.used]
         noise = np.array([picture.error for picture in shown.used])
-        positions = sights.corners.across(moved)  # of the line of sight
+        positions = sights.corners.across(moved)  # across the line of sight
     pixels = np.hypot(moved, noise)
     counted = np.setdiff1d(np.arange(len(moved)), found.outliers)
     links = ("flange", "base") if sights.in_hand else ("base", "flange")

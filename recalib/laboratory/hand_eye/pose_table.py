@@ -41,7 +41,7 @@ class Convention:
     headings: tuple[str, ...]  # of the rotation, in the order in which the controller shows it
     turns: Callable[[np.ndarray], Rotation]  # of its numbers (n, k) [rad, 1]
     length: str = ""  # the unit, unless the headings of a table have another one
-    angle: str = ""
+    angle: str = ""  # likewise
 
 
 def _euler(order: str, *headings: str) -> Convention:
@@ -143,9 +143,9 @@ def read_poses(
     if way is None or MATRIX[0] in table:
         way = next((own for own in OWN if all(name in table for name in own.headings)), None)
     if way is None:
-        valid = listed((", ".join(own.headings) for own in OWN if own.headings != MATRIX), "or")
-        valid += "; or try: --convention, such as kuka"
-        raise InvalidFile(path, f"it has no rotation; expected: {valid}")
+        ways = listed((", ".join(own.headings) for own in OWN if own.headings != MATRIX), "or")
+        found = f"it has no rotation; expected: {ways}"
+        raise InvalidFile(path, f"{found}; or try: --convention, such as kuka")
     kind = ANGLE if len(way.headings) == 3 else NUMBER
     layout = (
         Columns("positions", POSITIONS.headings, LENGTH, needed=True),

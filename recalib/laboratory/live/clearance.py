@@ -77,12 +77,10 @@ class Clearance:
 
     def _distance(self, *pair: pin.GeometryObject) -> float:
         """How far apart [m] two shapes are at home."""
-        places = [self._data.oMi[shape.parentJoint] * shape.placement for shape in pair]
-        args = [
-            part
-            for shape, place in zip(pair, places, strict=True)
-            for part in (shape.geometry, coal.Transform3s(place.rotation, place.translation))
-        ]
+        args = []
+        for shape in pair:
+            place = self._data.oMi[shape.parentJoint] * shape.placement
+            args += [shape.geometry, coal.Transform3s(place.rotation, place.translation)]
         return float(coal.distance(*args, coal.DistanceRequest(), coal.DistanceResult()))
 
 

@@ -24,7 +24,7 @@ CONTRADICTED = 2.0  # times the error at random: more in both others is a contra
 MOST = 6  # rows that are listed
 
 
-def doubts(result: Results) -> Iterator[str]:
+def doubts(result: Results) -> list[str]:
     """Warnings, the gravest first."""
     ends = [words for one, words in result.directions if not one.lasting]
     gain = None if result.mistake else result.wrong_gain
@@ -43,8 +43,7 @@ def doubts(result: Results) -> Iterator[str]:
         most=MOST,
         named=NAMED,
     )
-    for line in lines.splitlines():
-        yield f"Careful: {line}."
+    return [f"Careful: {line}." for line in lines.splitlines()]
 
 
 def fault_in_words(fault: Fault, data: DataSet, frames: Frames) -> str:

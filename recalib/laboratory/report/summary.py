@@ -114,7 +114,7 @@ def _facts(result: Results) -> dict[str, object]:
         "most": MOST,
         "files": names[0] if len(names) == 1 else names and f"{len(names)} folders",
         "fit": corrected,
-        "cameras": [*_cameras(result)] if data.lens_files else [],
+        "cameras": [*_cameras(result)] if data.observations.optics is not None else [],
         "open_anywhere": anywhere,
         "joints": [*_joints(result)],
     }

@@ -97,7 +97,8 @@ def _pose(part: str, parts: Mapping[str, Any]) -> dict[str, Any]:
 def within(key: str, given: Any, kind: Quantity, default: float = 0.0) -> tuple[float, float]:
     """A value and its deviation. Raises InvalidSetting."""
     value, *deviation = given.split("+-", 1) if isinstance(given, str) else [given]
-    return _read(key, value, kind), _positive(key, deviation[0], kind) if deviation else default
+    number = _read(key, value, kind)
+    return number, _read(key, deviation[0], kind, positive=True) if deviation else default
 
 
 def _wear(given: Any) -> dict[str, Any]:
@@ -110,17 +111,10 @@ def _wear(given: Any) -> dict[str, Any]:
     stated: dict[str, Any] = {}
     if links is not None:
         pairs = zip(links, (LENGTH, ANGLE), strict=True)
-        stated["links"] = tuple(_positive("wear.links", text, kind) for text, kind in pairs)
+        stated["links"] = tuple(_read("wear.links", text, kind, True) for text, kind in pairs)
     if encoders is not None:
-        stated["encoders"] = _positive("wear.encoders", encoders, ANGLE)
+        stated["encoders"] = _read("wear.encoders", encoders, ANGLE, True)
     return stated
-
-
-def _positive(key: str, text: Any, kind: Quantity) -> float:
-    number = _read(key, text, kind)
-    if number <= 0:
-        raise InvalidSetting(key, text, "more than zero")
-    return number
 
 
 def distances_of(given: Any) -> dict[tuple[str, str], float]:
@@ -136,7 +130,7 @@ def distances_of(given: Any) -> dict[tuple[str, str], float]:
         if len(names) != 2 or names[0] == names[1]:
             raise InvalidSetting("distance.sockets", between, "the names of two sockets")
         pair = names[0], names[1]
-        length = _positive("distance.length", part["length"], LENGTH)
+        length = _read("distance.length", part["length"], LENGTH, True)
         if pair in distances:
             found = f"{1e3 * distances[pair]:g} mm and {1e3 * length:g} mm"
             raise InvalidSetting(f"distance between {' and '.join(pair)}", found, "one length")
@@ -144,8 +138,10 @@ def distances_of(given: Any) -> dict[tuple[str, str], float]:
     return distances
 
 
-def _read(key: str, text: Any, kind: Quantity) -> float:
+def _read(key: str, text: Any, kind: Quantity, positive: bool = False) -> float:
     number = kind.value_of(key, text)
     if abs(number) > kind.farthest:
         raise InvalidSetting(key, text, f"up to {kind.write(kind.farthest)}")
+    if positive and number <= 0:
+        raise InvalidSetting(key, text, "more than zero")
     return number

@@ -125,9 +125,8 @@ def _segments(
         else:
             last, origin = (fixed, name), joint.find("origin")
             given = {} if origin is None else origin.attrib
-            place, angles = (
-                np.array(given.get(key, "0 0 0").split(), dtype=float) for key in ("xyz", "rpy")
-            )
+            texts = (given.get(key, "0 0 0") for key in ("xyz", "rpy"))
+            place, angles = (np.array(text.split(), dtype=float) for text in texts)
             fixed = fixed @ pin.SE3(pin.rpy.rpyToMatrix(angles), place).homogeneous
     return moving, last
 
