@@ -148,10 +148,15 @@ class HandEye:
 
     def deviations(self, part: int) -> tuple[float, float]:
         """m, rad: standard deviations of the camera (0) or board (1) along the worst axis."""
-        own = self.covariance[6 * part : 6 * part + 6, 6 * part : 6 * part + 6]
-        worst = (np.linalg.eigvalsh(block)[-1] for block in (own[:3, :3], own[3:, 3:]))
-        position, turn = (float(np.sqrt(max(0.0, variance))) for variance in worst)
-        return position, turn
+        return worst_axes(self.covariance[6 * part : 6 * part + 6, 6 * part : 6 * part + 6])
+
+
+def worst_axes(covariance: np.ndarray) -> tuple[float, float]:
+    """m, rad: standard deviations along the worst axes, by a covariance (6, 6) of a pose."""
+    blocks = covariance[:3, :3], covariance[3:, 3:]
+    worst = (float(np.linalg.eigvalsh(block)[-1]) for block in blocks)
+    position, turn = (float(np.sqrt(max(0.0, variance))) for variance in worst)
+    return position, turn
 
 
 class LinearHandEye:

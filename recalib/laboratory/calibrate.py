@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from recalib.arrays import array_of, check_rotations, check_size
 from recalib.errors import InvalidSetting
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import LENGTH, TIME
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.scales import returning, scales
@@ -31,7 +31,6 @@ from recalib.nominal.descriptions import UrdfFile
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted
 
-AnyPath = str | PathLike[str]
 Progress = Callable[[str], None]
 ARRAYS = Path("the arrays")  # what messages call measurements without a file
 
@@ -42,10 +41,6 @@ class Calibrated(Results):
     def summary(self) -> str:
         """The printed summary: errors before and after, and the identified arm."""
         return summary(self)
-
-
-def silent(line: str) -> None:
-    """Report no progress."""
 
 
 def calibrate(
@@ -59,7 +54,7 @@ def calibrate(
     times: ArrayLike | None = None,
     instrument: ArrayLike | None = None,
     target: ArrayLike | None = None,
-    on_progress: Progress = silent,
+    on_progress: Progress = lambda line: None,
 ) -> Calibrated:
     """Identify the errors of an arm from arrays of measurements.
 
@@ -106,7 +101,8 @@ def calibrate(
     frames = _frame("instrument", instrument), _frame("target", target)
     rows = Measurements(ARRAYS, moving, poses, columns)
     known = Description({}, *frames, pairs)
-    return identified(arm, data_set(check_measured(rows), known, arm), on_progress=on_progress)
+    check_measured(rows)
+    return identified(arm, data_set(rows, known, arm), on_progress=on_progress)
 
 
 def _frame(name: str, given: ArrayLike | None) -> np.ndarray | None:
@@ -137,7 +133,7 @@ def calibrate_arm(
     description: AnyPath | Description | None = None,
     tool: str | None = None,
     base: str | None = None,
-    on_progress: Progress = silent,
+    on_progress: Progress = lambda line: None,
 ) -> Calibrated:
     """Identify the errors of an arm from a table of measurements.
 
@@ -152,29 +148,25 @@ def calibrate_arm(
     another arm; frames that are not identifiable, or contradict the description; a fit that cannot
     be trusted.
     """
-    file, arm, known = opened(urdf, description, tool, base, on_progress)
+    file, arm, known = opened(urdf, description, tool, base)
+    on_progress(file.origin)
     rows = read_measurements(table, arm, known)
     return identified(arm, data_set(rows, known, arm), file, on_progress)
 
 
 def opened(
-    urdf: AnyPath,
-    description: AnyPath | Description | None,
-    tool: str | None,
-    base: str | None,
-    on_progress: Progress,
+    urdf: AnyPath, description: AnyPath | Description | None, tool: str | None, base: str | None
 ) -> tuple[UrdfFile, Arm, Description]:
     """What `calibrate_arm` is given, read."""
     file = UrdfFile.read(urdf)
     arm = arm_of(file.content, file.path, tool, base)
     if description is not None and not isinstance(description, Description):
         description = read_description(description)
-    on_progress(file.origin)
     return file, arm, description or Description()
 
 
 def identified(
-    arm: Arm, data: DataSet, urdf: UrdfFile | None = None, on_progress: Progress = silent
+    arm: Arm, data: DataSet, urdf: UrdfFile | None = None, on_progress: Progress = lambda line: None
 ) -> Calibrated:
     """Identify the errors of an arm, and validate them. Raises as `calibrate_arm`."""
     moving = counted(len(arm.joints), "joint")
@@ -184,7 +176,7 @@ def identified(
         stand = None if known.instrument is None else np.linalg.inv(known.instrument)
         offset = check_nominal(arm, observations.joints, data.nominal, stand, known.target)
     on_progress("initial estimate of instrument and target")
-    frames = known.stated_in(frames_of(arm, data))
+    frames = frames_of(arm, data)
     if observations.optics is not None:
         frames = frames.with_optics(observations.optics)
         covariance = returning(ErrorModel(arm, OFFSETS, frames), observations)

@@ -1,4 +1,4 @@
-"""What each command of `recalib` does with its options."""
+"""What each command of `recalib` does with its options, in a function of the same name."""
 
 import argparse
 import os
@@ -12,23 +12,27 @@ import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import check_new, write_new
+from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
-from recalib.laboratory.hand_eye.pose_table import convention_of
-from recalib.laboratory.options import DONE, NO_BETTER
+from recalib.laboratory.hand_eye.pose_table import convention_of, read_poses
+from recalib.laboratory.live.allowed import Box
+from recalib.laboratory.options import DONE, IN_HAND, NO_BETTER
 from recalib.laboratory.propose import propose
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report.folder import files_of
 from recalib.laboratory.report.templates import UNITS, render
 from recalib.laboratory.tables.columns import TARGETS
-from recalib.laboratory.tables.measurements import STILL, postures_table, read_desired
-from recalib.laboratory.tables.table import read_table
+from recalib.laboratory.tables.description import within
+from recalib.laboratory.tables.measurements import STILL, pose_rows, postures_table, read_desired
+from recalib.laboratory.tables.table import read_table, table_text
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
 from recalib.spelling import counted
 
 TURNED = 0.01  # deg: a rotation that is off by less is reached
+ENOUGH = 0.05  # a part of the uncertainty: a smaller gain is not worth the measurements
 Options = argparse.Namespace
 
 
@@ -41,13 +45,30 @@ def calibrate(options: Options) -> int:
     """Write a folder of results from a table, from folders of pictures, or from flange poses."""
     if options.poses is not None:
         if options.urdf is None:
-            calibrate_poses = _load("laboratory.hand_eye.commands", "calibrate_poses")
-            return int(calibrate_poses(options, print_progress))
+            return calibrate_poses(options)
         options.measurements = [_observed(options)]
     if not options.measurements:
         valid = "URDF and a table, or --poses and --pictures"
         raise InvalidSetting("measurements", None, valid)
     return calibrate_rows(options)
+
+
+def calibrate_poses(options: Options) -> int:
+    """Write a folder of where camera and board are, without a URDF."""
+    if (options.pictures is None) == (options.targets is None):
+        raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
+    calibrating = import_module("recalib.laboratory.hand_eye.calibrating")
+    inverse, in_hand = options.inverse or (), options.camera == IN_HAND
+    flange = read_poses(options.poses, options.convention, options.unit, "flange" in inverse)
+    if options.targets is None:
+        given = options.pictures, options.board, options.lens, in_hand, print_progress
+        shown = calibrating.pictures_at(flange, *given)
+    else:
+        own = options.target_convention, options.unit, "targets" in inverse
+        shown = read_poses(options.targets, *own)
+    height = options.height and within("--height", options.height, LENGTH, 1e-4)
+    files, good = calibrating.calibrate_poses(flange, shown, in_hand, height, print_progress)
+    return _written(options.out, files, good)
 
 
 def calibrate_rows(options: Options) -> int:
@@ -69,11 +90,17 @@ def calibrate_rows(options: Options) -> int:
     if options.recording:
         recording, remark = _load("laboratory.report.recording", "recording_of")(result)
         files |= {"recording.rrd": recording} if recording else {}
-    write_new(options.out, files)
-    print(result.summary(), end="")
-    print(f"\n{options.out}: {', '.join(files)}")
+    code = _written(options.out, files, result.worthwhile)
     print(remark, end="\n" * bool(remark))
-    return DONE if result.worthwhile else NO_BETTER
+    return code
+
+
+def _written(out: Path, files: dict[str, bytes], good: bool) -> int:
+    """Write a folder and print its summary; the exit code."""
+    write_new(out, files)
+    print(files["summary.txt"].decode(), end="")
+    print(f"\n{out}: {', '.join(files)}")
+    return DONE if good else NO_BETTER
 
 
 def _observed(options: Options) -> Path:
@@ -97,11 +124,8 @@ def live(options: Options) -> int:
     ended = measure_live(options, print_progress)
     print_progress(f"ended: {ended.reason}")
     if ended.rows < FEWEST:
-        rows = counted(ended.rows, "row")
-        print(
-            f"{rows} in {options.table}; a calibration needs {FEWEST}; to continue, repeat the"
-            " command"
-        )
+        more = f"a calibration needs {FEWEST}; to continue, repeat the command"
+        print(f"{counted(ended.rows, 'row')} in {options.table}; {more}")
         return DONE
     options.measurements = [options.table]
     if options.board is not None:  # all corners together determine more, also of the lens
@@ -145,10 +169,10 @@ def correct(options: Options) -> int:
     return DONE
 
 
-def next_(options: Options) -> int:
+def next(options: Options) -> int:
     """Write the most informative postures, or poses of a flange."""
     if options.poses:
-        return int(_load("laboratory.hand_eye.commands", "next_poses")(options))
+        return next_poses(options)
     correction = load_correction(options.calibration)
     candidates: np.ndarray | Goals | None = None
     if options.candidates is not None:
@@ -156,16 +180,29 @@ def next_(options: Options) -> int:
         candidates = rows.joints
         if rows.measured is not None:
             candidates = Goals.of(rows.measured, rows.joints, correction.arm.coupling)
-    proposal = propose(correction, options.count, candidates)
-    poses = correction.arm.forward(correction.arm.coupling.joints(proposal.joints))
-    write_new(options.out, postures_table(correction.arm, proposal.joints, poses), ".csv")
-    before, after = 1e3 * proposal.uncertainty[[0, -1]]
-    postures = counted(len(proposal.joints), "posture")
-    print(f"{postures} in {options.out}, the most informative first.")
+    joints, deviations = propose(correction, options.count, candidates)
+    poses = correction.arm.forward(correction.arm.coupling.joints(joints))
+    write_new(options.out, postures_table(correction.arm, joints, poses), ".csv")
+    before, after = 1e3 * deviations[[0, -1]]
+    enough = after >= (1 - ENOUGH) * before
+    print(f"{counted(len(joints), 'posture')} in {options.out}, the most informative first.")
     print(
         f"They would reduce the uncertainty of predicted positions from {before:.3g} mm to"
-        f" {after:.3g} mm" + ("." if proposal.worthwhile else ": more rows are not worthwhile.")
+        f" {after:.3g} mm" + (": more rows are not worthwhile." if enough else ".")
     )
+    return DONE
+
+
+def next_poses(options: Options) -> int:
+    """Write the poses of a flange with the most information on a camera's place."""
+    propose_poses = _load("laboratory.hand_eye.proposing", "propose_poses")
+    box = None if options.box is None else Box.read(options.box)
+    cone = ANGLE.value_of("--cone", options.cone)
+    poses, deviations = propose_poses(options.calibration, options.count, box, cone)
+    write_new(options.out, table_text(pose_rows(poses)), ".csv")
+    before, after = 1e3 * deviations[[0, -1]]
+    print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
+    print(f"They would reduce the camera's deviation from {before:.3g} mm to {after:.3g} mm.")
     return DONE
 
 
@@ -184,14 +221,14 @@ def _beyond(correction: Correction, commands: Commands) -> dict[str, Any]:
     parts = commands.beyond / np.maximum(high - low, STILL)
     row, joint = np.unravel_index(parts.argmax(), parts.shape)
     scale, unit = UNITS[0] if coupling.slides[joint] else UNITS[1]
-    ends = {"low": low, "high": high, "far": commands.beyond[row]}
     return {
         "rows": np.count_nonzero(commands.beyond.any(axis=1)),
         "joints": np.array(coupling.columns)[commands.beyond.any(axis=0)],
         "row": row,
         "joint": joint,
         "unit": unit,
-        **{name: scale * numbers[joint] for name, numbers in ends.items()},
+        "far": scale * commands.beyond[row, joint],
+        "ends": (scale * low[joint], scale * high[joint]),
     }
 
 
@@ -215,7 +252,7 @@ def observe(options: Options) -> int:
     page_of_pictures = _load("laboratory.pictures.page_of_pictures", "page_of_pictures")
     pictures = options.pictures, options.joints, options.board, options.lens
     check_new(options.out, folder=True)
-    result = find_boards(*pictures, options.camera == "hand", print_progress, options.name)
+    result = find_boards(*pictures, options.camera == IN_HAND, print_progress, options.name)
     write_new(options.out, result.files() | {"page.html": page_of_pictures(result)})
     print(result.summary(), end="")
     print(f"\n{options.out}: see page.html; next: recalib calibrate ARM.urdf {options.out}")
@@ -223,16 +260,4 @@ def observe(options: Options) -> int:
 
 
 def print_progress(line: str) -> None:
-    """Print a line about progress on stderr."""
     print(f"... {line}", file=sys.stderr, flush=True)
-
-
-COMMANDS = {
-    "calibrate": calibrate,
-    "live": live,
-    "correct": correct,
-    "next": next_,
-    "urdf": urdf,
-    "board": board,
-    "observe": observe,
-}

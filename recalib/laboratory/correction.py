@@ -131,8 +131,7 @@ class Correction:
         Raises as `correct`.
         """
         goals = self._goals(pose, near, target, frame)
-        joints: np.ndarray = reach_all(self.calibration, self.postures, goals)[0]
-        return joints
+        return reach_all(self.calibration, self.postures, goals)[0]
 
     @cached_property
     def postures(self) -> np.ndarray:
@@ -241,12 +240,11 @@ class Correction:
         postures, places = goals.postures, goals.positions
         if postures is None or len(self.targets) > 1 or len(self.calibration.frames.sockets):
             return
-        frame = BASE if goals.targets is None else INSTRUMENT
+        frame, other = (BASE, INSTRUMENT) if goals.targets is None else (INSTRUMENT, BASE)
         gaps = {}
         for name, target in ((BASE, None), (INSTRUMENT, 0)):
             off = poses_at(self.calibration, postures, target)[:, :3, 3] - places
             gaps[name] = np.median(np.linalg.norm(off, axis=1))
-        (other,) = gaps.keys() - {frame}
         if gaps[other] < min(NEAR, BETTER * gaps[frame]) and gaps[frame] > NEAR:
             raise InvalidSetting(
                 "frame",
@@ -274,12 +272,6 @@ class Correction:
 
 
 def load_correction(path: str | PathLike[str]) -> Correction:
-    """The calibrated arm in a file that `Correction.save` or `recalib calibrate` wrote.
-
-    Args:
-        path: of the file, or of the folder of a calibration.
-
-    Raises InvalidFile.
-    """
+    """The calibrated arm in a file, or in a folder of `recalib calibrate`. Raises InvalidFile."""
     file = path_of(path) if os.path.isfile(path_of(path)) else Path(path, NAME)
     return Correction.from_archive(read_file(file, MOST), file)

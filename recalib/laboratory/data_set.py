@@ -13,38 +13,25 @@ from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.kinematics import Arm
 
-INSTRUMENT: tuple[str, ...] = ("the instrument",)
 TARGET: tuple[str, ...] = ("the target",)
 
 
 @dataclass(frozen=True)
 class DataSet:
-    """Observations, and the names that go with their numbers.
-
-    Attributes:
-        observations: the measurements.
-        targets, sockets, instruments: their names, in the order of their numbers.
-        known: frames that the user gives.
-        sights: (s, 2) the numbers of the instrument and of the target of each sight; None if there
-            is one instrument.
-        tables: the files with the measurements; several are each of another sight.
-        nominal: (n, 3) m, where the positions should have been; None if unknown.
-        boards: names of the boards in pictures.
-        doubts: about lenses, in sentences without their full stops.
-        lens_files: files of the lenses with corrections (o,) by name, see `OPTICS`; None without
-            pictures.
-    """
+    """Observations, and the names that go with their numbers, in the order of these."""
 
     observations: Observations
     targets: tuple[str, ...] = TARGET
     sockets: tuple[str, ...] = ()
-    instruments: tuple[str, ...] = INSTRUMENT
-    known: Description = field(default_factory=Description)
+    instruments: tuple[str, ...] = ("the instrument",)
+    known: Description = field(default_factory=Description)  # frames that the user gives
+    # (s, 2) the numbers of instrument and target of each sight; None if there is one instrument
     sights: np.ndarray | None = None
-    tables: tuple[Path, ...] = ()
-    nominal: np.ndarray | None = None
-    boards: tuple[str, ...] = ()
-    doubts: Sequence[str] = ()
+    tables: tuple[Path, ...] = ()  # the files; several are each of another sight
+    nominal: np.ndarray | None = None  # (n, 3) m, where the positions should have been
+    boards: tuple[str, ...] = ()  # in pictures
+    doubts: Sequence[str] = ()  # about lenses, in sentences without their full stops
+    # the files of lenses by name, with corrections (o,) of `OPTICS`; None without pictures
     lens_files: Callable[[np.ndarray], Mapping[str, bytes]] | None = None
 
     def __len__(self) -> int:

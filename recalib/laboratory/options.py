@@ -3,17 +3,16 @@
 import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from recalib import __version__
 from recalib.errors import InvalidQuantity, UnknownName
 from recalib.files.quantities import LENGTH
-from recalib.laboratory.tables.columns import described
+from recalib.laboratory.tables.columns import MEASURED
 
-CAMERAS = "fixed", "hand"
-FILES = "correct", "next", "urdf"  # commands that write a file
-FOLDERS = "calibrate", "live", "board", "observe"  # commands that write a folder
+FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 DONE, REFUSED, NO_BETTER = 0, 1, 3
+Kind = Callable[[str], object]
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no improvement."
 URDF = "URDF file, or the name of an arm of example-robot-data"
 WAYS = "ur, abb, kuka, fanuc, staubli, ros, matrix"
@@ -24,15 +23,14 @@ class Parser(argparse.ArgumentParser):
     """Refuses as commands do: in one sentence, with the same exit code."""
 
     def error(self, message: str) -> NoReturn:
-        """Print what is wrong, and leave."""
         self.exit(REFUSED, f"recalib: {message}; try: {self.prog} --help\n")
 
     def add(
-        self, name: str, text: str, kind: Callable[[str], object] = str, default: object = None
+        self, name: str, text: str, kind: Kind = str, default: object = None, **more: Any
     ) -> None:
         """An argument, or an option with its default."""
         shown = "" if default is None else f" (default: {default})"
-        self.add_argument(name, type=kind, default=default, help=text + shown)
+        self.add_argument(name, type=kind, default=default, help=text + shown, **more)
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
@@ -51,8 +49,9 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
             epilog=f"{epilog}{EPILOGUE}",
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        kind = "folder" if name in FOLDERS else "file"
-        own.add("--out", f"new {kind} to write", Path, out)
+        folder = not Path(out).suffix  # of its default
+        own.set_defaults(folder=folder)
+        own.add("--out", f"new {'folder' if folder else 'file'} to write", Path, out)
         return own
 
     where = "where the camera is (default: fixed)"
@@ -68,13 +67,9 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own = add(
         "calibrate", "identify the arm's parameters from measurements", "calibration", _columns()
     )
-    own.add_argument("urdf", type=_name, nargs="?", help=f"{URDF}; not needed with --poses")
-    own.add_argument(
-        "measurements",
-        type=_path,
-        nargs="*",
-        help="table (CSV), or folders from recalib observe, one for each camera",
-    )
+    own.add("urdf", f"{URDF}; not needed with --poses", _name, nargs="?")
+    text = "table (CSV), or folders from recalib observe, one for each camera"
+    own.add("measurements", text, _path, nargs="*")
     add_arm(own)
     group = own.add_argument_group("hand-eye calibration, without a URDF: see docs/poses.md")
     for name, kind, default, text in (
@@ -88,7 +83,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         ("--height", str, None, "of the board, if the arm turns about one axis: '31 cm +- 1 mm'"),
     ):
         group.add_argument(name, type=kind, default=default, help=text)
-    group.add_argument("--camera", choices=CAMERAS, default="fixed", help=where)
+    group.add_argument("--camera", choices=CAMERAS, default=FIXED, help=where)
     group.add_argument("--unit", choices=LENGTH.units, help="of positions without a unit")
     text = "this table has the inverse poses: of the base in the flange, of the camera in it"
     group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
@@ -100,12 +95,8 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add("--error", "end at this predicted error (default: when more rows would not help)")
     own.add("--most", "maximum number of rows", int, 60)
     own.add("--span", "largest distance of each joint from the first posture", str, "45 deg")
-    own.add_argument(
-        "--box",
-        nargs=3,
-        metavar=("X", "Y", "Z"),
-        help="ranges of the tool's position: '-40 cm to 40 cm' '30 cm to 80 cm' '0 m to 1 m'",
-    )
+    text = "ranges of the tool's position: '-40 cm to 40 cm' '30 cm to 80 cm' '0 m to 1 m'"
+    own.add("--box", text, nargs=3, metavar=("X", "Y", "Z"))
     own.add("--speed", "fraction of the fastest joint's limit", float, 0.1)
     own.add("--floor", "height of the floor in the arm's base, or none", str, "0 mm")
     own.add_argument("--no-self-collision", action="store_true", help="allow links near each other")
@@ -119,24 +110,24 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own = add("correct", "compute commands that reach the desired poses", "commands.csv")
     own.add("calibration", CALIBRATION, _path)
     own.add("desired", "desired poses or joint coordinates (CSV)", _path)
-    own.add_argument(
-        "--frame",
-        choices=("base", "instrument"),
-        help="frame of the poses: a target in the instrument's frame, as measured, or the tool"
-        " link in the base, if [instrument] was given (default: instrument; of joints alone, and"
-        " of balls in sockets: base)",
+    text = (
+        "frame of the poses: a target in the instrument's frame, as measured, or the tool link in"
+        " the base, if [instrument] was given (default: instrument; of joints alone, and of balls"
+        " in sockets: base)"
     )
+    own.add("--frame", text, choices=("base", "instrument"))
 
     text = "propose the most informative postures, and report whether more would help"
     own = add("next", text, "next.csv")
     own.add("calibration", CALIBRATION, _path)
-    candidates = "postures to choose from (CSV; default: drawn at random)"
-    own.add_argument("candidates", type=_path, nargs="?", help=candidates)
+    own.add(
+        "candidates", "postures to choose from (CSV; default: drawn at random)", _path, nargs="?"
+    )
     own.add("--count", "number of postures", _positive, 10)
     text = "propose flange poses, by a folder of calibrate --poses"
     own.add_argument("--poses", action="store_true", help=text)
     text = "with --poses: ranges of the flange's position: '-40 cm to 40 cm' ..."
-    own.add_argument("--box", nargs=3, metavar=("X", "Y", "Z"), help=text)
+    own.add("--box", text, nargs=3, metavar=("X", "Y", "Z"))
     own.add("--cone", "with --poses: of lines of sight about the board's normal", str, "45 deg")
 
     own = add("urdf", "write a URDF from Denavit-Hartenberg parameters", "arm.urdf")
@@ -153,17 +144,19 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add("joints", "table (CSV) of joint coordinates, with a column picture", _path)
     own.add("--board", "description of the board", _path, "board/board.toml")
     own.add("--lens", "lens calibration (YAML; default: estimated)", _path)
-    own.add_argument("--camera", choices=CAMERAS, default="fixed", help=where)
+    own.add_argument("--camera", choices=CAMERAS, default=FIXED, help=where)
     own.add("--name", "name of the camera, if there are several", str, "camera")
 
-    if words and not words[0].startswith("-") and words[0] not in FILES + FOLDERS:
-        parser.error(str(UnknownName("command", words[0], FILES + FOLDERS)))
+    if words and not words[0].startswith("-") and words[0] not in commands.choices:
+        parser.error(str(UnknownName("command", words[0], commands.choices)))
     return parser.parse_args(words)
 
 
 def _columns() -> str:
     """The columns of a table of measurements, for `recalib calibrate --help`."""
-    lines = (f"  {headings:<48}{meaning}" for headings, meaning in described())
+    joint = "JOINT [deg]", "each joint by its name in the URDF, as the controller reports it"
+    others = ((", ".join(columns.written), columns.meaning) for columns in MEASURED)
+    lines = (f"  {headings:<48}{meaning}" for headings, meaning in (joint, *others))
     return "\n".join(["columns of a table of measurements:", *lines, "", ""])
 
 

@@ -15,10 +15,11 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.identifiability import Unidentifiable
-from recalib.identification.hand_eye import HandEye
+from recalib.identification.hand_eye import HandEye, worst_axes
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import HELD, Frames
 from recalib.identification.model.linearisation import displacements
+from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.urdf.origins import angles_of
 
 STEP = 1e-4  # of a parameter's prior deviation, to either side
@@ -28,22 +29,15 @@ STEP = 1e-4  # of a parameter's prior deviation, to either side
 class Place:
     """The identified pose of an instrument, a target or a socket.
 
-    Attributes:
-        name: in words.
-        link: in whose frame the pose is.
-        turned: whether the rotation is known.
-        pose: (4, 4) m.
-        deviations: standard deviations [m, rad] along the worst axis, relative to the calibrated
-            arm.
-        real_deviations: the same, relative to the real arm.
+    Deviations are standard deviations [m, rad] along the worst axis.
     """
 
-    name: str
-    link: str
-    turned: bool
-    pose: np.ndarray
-    deviations: tuple[float, float]
-    real_deviations: tuple[float, float]
+    name: str  # in words
+    link: str  # in whose frame the pose is
+    turned: bool  # whether the rotation is known
+    pose: np.ndarray  # (4, 4) m
+    deviations: tuple[float, float]  # relative to the calibrated arm
+    real_deviations: tuple[float, float]  # relative to the real arm
 
     @property
     def position(self) -> np.ndarray:
@@ -57,7 +51,6 @@ class Place:
 
     @property
     def rotation(self) -> Rotation:
-        """As SciPy has it."""
         return Rotation.from_matrix(self.pose[:3, :3])
 
     @property
@@ -86,26 +79,21 @@ class Place:
 
 
 def found_places(
-    calibration: Calibration,
-    unidentifiable: Sequence[Unidentifiable],
-    targets: Sequence[str],
-    sockets: Sequence[str],
-    tool: str,
-    instruments: Sequence[str] = ("the instrument",),
+    calibration: Calibration, unidentifiable: Sequence[Unidentifiable], data: DataSet, tool: str
 ) -> list[Place]:
     """The estimated places.
 
     Args:
         unidentifiable: see `unidentifiable_parameters`.
-        targets, sockets, instruments: their names, in the order of their numbers.
+        data: with the names of instruments, targets and sockets.
         tool: the link that is the tool of the calibrated arm.
     """
     model, estimate = calibration.model, calibration.estimate
     frames, base, free = model.frames, model.nominal.base, np.flatnonzero(model.free)
     turned = frames.target_deviations[1] > HELD
-    what = [(name, base, True) for name in instruments] * _has_instrument(frames)
-    what += [(name, tool, turned) for name in targets] * frames.targets_unknown
-    what += [(f"socket {name}", base, False) for name in sockets]
+    what = [(name, base, True) for name in data.instruments] * _has_instrument(frames)
+    what += [(name, tool, turned) for name in data.target_names] * frames.targets_unknown
+    what += [(f"socket {name}", base, False) for name in data.sockets]
     if not what:
         return []
     lasting = np.array([one.parameter for one in unidentifiable if one.lasting], dtype=int)
@@ -117,21 +105,18 @@ def found_places(
     slopes = _slopes(model, estimate.parameters, free)
     poses = _poses(model, estimate.parameters)
     return [
-        Place(*one, pose, *(_deviations(slope @ spread @ slope.T) for spread in (own, real)))
+        Place(*one, pose, *(worst_axes(slope @ spread @ slope.T) for spread in (own, real)))
         for one, pose, slope in zip(what, poses, slopes, strict=True)
     ]
 
 
-def hand_eye_places(
-    found: HandEye, names: Sequence[str], links: Sequence[str]
-) -> tuple[Place, Place]:
+def hand_eye_places(found: HandEye, names: Sequence[str], links: Sequence[str]) -> list[Place]:
     """A camera and a board by their names, in the links' frames, by a hand-eye calibration."""
     pairs = zip(names, links, (found.camera, found.board), strict=True)
-    camera, board = (
+    return [
         Place(name, link, True, pose, *[found.deviations(part)] * 2)
         for part, (name, link, pose) in enumerate(pairs)
-    )
-    return camera, board
+    ]
 
 
 def _has_instrument(frames: Frames) -> bool:
@@ -159,11 +144,3 @@ def _slopes(model: ErrorModel, parameters: np.ndarray, free: np.ndarray) -> np.n
         ends = (_poses(model, parameters + sign * step) for sign in (-1, 1))
         columns.append(displacements(*ends) / (2 * step[number]))
     return np.stack(columns, axis=-1)
-
-
-def _deviations(covariance: np.ndarray) -> tuple[float, float]:
-    position, orientation = (
-        float(np.sqrt(max(0.0, np.linalg.eigvalsh(part)[-1])))
-        for part in (covariance[:3, :3], covariance[3:, 3:])
-    )
-    return position, orientation

@@ -5,7 +5,7 @@ There the instrument saw the target and nothing was hit, which joint limits do n
 near the ends of joint ranges are left out.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,43 +21,23 @@ DRAWN = 400  # candidates
 BEYOND = 0.1  # of the measured range, on either side
 OUTERMOST = 0.05  # of a joint's range at either end, where joints behave otherwise
 PROBES = 200  # postures at which the uncertainty is computed
-ENOUGH = 0.05  # a part of the uncertainty: a smaller gain is not worth the measurements
-
-
-class NoUsefulPosture(RecalibError):
-    """No candidate is within reach, and off the ends of joint ranges."""
-
-
-@dataclass(frozen=True)
-class Proposal:
-    """Postures to measure, the most informative first.
-
-    Attributes:
-        joints: (n, columns) rad, or m where a joint slides, as the controller reports.
-        uncertainty: (n + 1,) m, the mean deviation of predicted positions before and after each.
-    """
-
-    joints: np.ndarray
-    uncertainty: np.ndarray
-
-    @property
-    def worthwhile(self) -> bool:
-        """Whether measuring all of them would make predictions noticeably better."""
-        return bool(self.uncertainty[-1] < (1 - ENOUGH) * self.uncertainty[0])
 
 
 def propose(
     correction: Correction, count: int, candidates: np.ndarray | Goals | None = None
-) -> Proposal:
+) -> tuple[np.ndarray, np.ndarray]:
     """The most informative postures to measure, each given those before it.
+
+    Returns their joints (n, columns) [rad, or m where one slides], as the controller reports them,
+    and the mean deviation (n + 1,) [m] of predicted positions before and after each.
 
     Args:
         count: how many.
         candidates: joint coordinates (n, columns), or poses of the tool in the arm's base (default:
             drawn at random). Those out of reach or near the end of a joint's range are left out.
 
-    Raises InvalidSetting if they would have to be drawn for a ball in sockets, and NoUsefulPosture
-    if none is left.
+    Raises InvalidSetting if they would have to be drawn for a ball in sockets, and RecalibError if
+    none is left.
     """
     if candidates is not None:
         postures = _useful(correction, candidates)
@@ -77,7 +57,7 @@ def propose(
     found = [*most_informative(calibration, coupling.joints(postures), count)]
     covariances = [calibration.estimate.covariance, *(covariance for _, covariance in found)]
     chosen = [best for best, _ in found]
-    return Proposal(postures[chosen], np.array([*map(uncertainty, covariances)]))
+    return postures[chosen], np.array([*map(uncertainty, covariances)])
 
 
 def _drawn(correction: Correction) -> np.ndarray:
@@ -98,19 +78,18 @@ def joint_limits(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
 def _useful(correction: Correction, candidates: np.ndarray | Goals) -> np.ndarray:
     """Candidates (n, columns) within reach, and off the ends of joint ranges."""
     if isinstance(candidates, Goals):
-        solved = reach(correction.calibration, correction.postures, candidates)
-        found, reached = solved.joints, solved.reached
+        found, _, reached = reach(correction.calibration, correction.postures, candidates)
     else:
         found, reached = candidates, np.ones(len(candidates), dtype=bool)
     lower, upper = joint_limits(correction.arm)
     useful = reached & ((found >= lower) & (found <= upper)).all(axis=1)
     if not reached.any():
-        raise NoUsefulPosture(
+        raise RecalibError(
             f"0 of {counted(len(candidates), 'candidate')} can be reached;"
             " are their poses in the arm's base?"
         )
     if not useful.any():
-        raise NoUsefulPosture(
+        raise RecalibError(
             f"{reached.sum()} of {counted(len(candidates), 'candidate')} can be reached, each with"
             " a joint near the end of its range; try: candidates with all joints away from it"
         )

@@ -15,7 +15,7 @@ from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
 from recalib.nominal.kinematics import Arm, Coupling
 from recalib.nominal.newton import solve_groups
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import orientation_error
 from recalib.spelling import listed
 
 TOLERANCE = 1e-8  # m, rad
@@ -34,18 +34,11 @@ class NotReached(RecalibError):
 
 @dataclass(frozen=True)
 class Goals:
-    """Desired poses.
+    """Desired poses: of targets in the instrument's frame, or of the tool link in the base."""
 
-    Attributes:
-        poses: (n, 4, 4), or positions (n, 3) [m].
-        postures: (n, columns) rad, m to stay near to; None if any will do.
-        targets: (n,) numbers of the targets whose poses they are in the instrument's frame; None if
-            they are the tool link's in the arm's base.
-    """
-
-    poses: np.ndarray
-    postures: np.ndarray | None = None
-    targets: np.ndarray | None = None
+    poses: np.ndarray  # (n, 4, 4), or positions (n, 3) [m]
+    postures: np.ndarray | None = None  # (n, columns) rad, m to stay near to; None if any will do
+    targets: np.ndarray | None = None  # (n,) their numbers; None of the tool link
 
     @classmethod
     def of(cls, poses: ArrayLike, near: ArrayLike | None, coupling: Coupling) -> "Goals":
@@ -81,21 +74,6 @@ class Goals:
         return replace(self, poses=self.positions) if few else self
 
 
-@dataclass(frozen=True)
-class Reached:
-    """What was found.
-
-    Attributes:
-        joints: (n, columns) rad, m, the best.
-        errors: (n,) m or rad that are left.
-        reached: (n,) whether a pose is reached within the arm's limits.
-    """
-
-    joints: np.ndarray
-    errors: np.ndarray
-    reached: np.ndarray
-
-
 def poses_at(
     calibration: Calibration, joints: np.ndarray, targets: np.ndarray | int | None
 ) -> np.ndarray:
@@ -106,11 +84,13 @@ def poses_at(
     return calibration.predict(every, np.broadcast_to(targets, len(every)))
 
 
-def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reached:
-    """From each start in turn, until a goal is reached.
+def reach(
+    calibration: Calibration, learned: np.ndarray, goals: Goals
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """From each start in turn, until a goal is reached within the arm's limits.
 
-    Args:
-        learned: (n, columns) rad, m to start from if the goals have no postures.
+    Goals without postures start from learned ones (n, columns) [rad, m]. Returns the best joints
+    (n, columns) [rad, m], the errors (n,) [m or rad] that are left, and which goals are reached.
     """
     arm, simple = calibration.model.nominal, goals.reachable(calibration.model.nominal)
     starts = _nearest(calibration, learned, goals) if goals.postures is None else [goals.postures]
@@ -129,34 +109,26 @@ def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reache
         better = within | (remaining < errors[rows])
         found[rows[better]], errors[rows[better]] = tried[better], remaining[better]
         reached[rows] = within
-    return Reached(found, errors, reached)
+    return found, errors, reached
 
 
 def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np.ndarray:
-    """Joint coordinates (n, columns) [rad, m] that reach all goals; see `reach`.
-
-    Raises NotReached.
-    """
-    found, arm = reach(calibration, learned, goals), calibration.model.nominal
-    if found.reached.all():
-        return found.joints
-    rows = np.flatnonzero(~found.reached)
-    goal, joints = goals[rows[:1]], found.joints[rows[0]]
-    if found.errors[rows[0]] > TOLERANCE:
+    """Joint coordinates (n, columns) [rad, m] that reach all goals. Raises NotReached."""
+    found, errors, reached = reach(calibration, learned, goals)
+    if reached.all():
+        return found
+    arm, rows = calibration.model.nominal, np.flatnonzero(~reached)
+    goal, joints = goals[rows[:1]], found[rows[0]]
+    if errors[rows[0]] > TOLERANCE:
         (pose,) = poses_at(calibration, joints[None], goal.targets)
-        gap = _gap(pose, goal.reachable(arm).poses[0])
+        (wanted,) = goal.reachable(arm).poses
+        gap = f"{1e3 * np.linalg.norm(pose[:3, 3] - goal.positions[0]):.4g} mm"
+        if wanted.ndim == 2:
+            gap += f" and {np.degrees(orientation_error(pose, wanted)):.4g} deg"
         raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
     low, high = arm.coupling.limits
     names = listed(np.array(arm.coupling.columns)[(joints < low) | (joints > high)], "and")
     raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
-
-
-def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
-    """How far a pose (4, 4) is from a desired pose or position, in words."""
-    if goal.ndim == 1:
-        return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
-    position, orientation = position_error(pose, goal), orientation_error(pose, goal)
-    return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"
 
 
 def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> list[np.ndarray]:

@@ -41,27 +41,16 @@ def without_shift(found: Sequence[Fault], mistake: str | None) -> list[Fault]:
 
 @dataclass(frozen=True)
 class Results:
-    """A calibrated arm.
+    """A calibrated arm."""
 
-    Attributes:
-        urdf: the file of the nominal arm; None if there is none.
-        data: the measurements.
-        frames: from which the identification started.
-        validation: held-out errors, and the choice by them.
-        scales: of boards, of distances between sockets or of all positions, by links as long as the
-            nominal arm's.
-        mistake: the likely mistake in the rows, in words; see `mistake_in`.
-        offset: what lies between nominal positions in the rows and the nominal kinematics, in
-            words; None if nothing does.
-    """
-
-    urdf: UrdfFile | None
+    urdf: UrdfFile | None  # of the nominal arm; None if there is none
     data: DataSet
-    frames: Frames
-    validation: Validation
+    frames: Frames  # from which the identification started
+    validation: Validation  # held-out errors, and the choice by them
+    # of boards, distances between sockets or all positions, if links are as long as nominal ones
     scales: Mapping[str, Scale]
-    mistake: str | None
-    offset: str | None
+    mistake: str | None  # the likely one in the rows, in words; see `mistake_in`
+    offset: str | None  # of nominal positions in the rows from nominal kinematics, in words
 
     def predict(self, joints: ArrayLike, target: str | None = None) -> np.ndarray:
         """Poses (n, 4, 4) [m] of a target in the instrument's frame: what it should measure.
@@ -134,14 +123,11 @@ class Results:
     def places(self) -> list[Place]:
         """Poses of instruments, targets and sockets that were not given."""
         tool = self.arm.tool if self.urdf is None else self.corrected[1]
-        data = self.data
-        names = data.target_names, data.sockets, tool, data.instruments
-        by_geometry = found_places(self.geometry, self.unidentifiable, *names)
+        by_geometry = found_places(self.geometry, self.unidentifiable, self.data, tool)
         if self.worthwhile:
             return by_geometry
         # an arm that looks right may still have an offset that is not identifiable
-        names = data.target_names, data.sockets, self.arm.tool, data.instruments
-        by_nominal = found_places(self.calibration, [], *names)
+        by_nominal = found_places(self.calibration, [], self.data, self.arm.tool)
         pairs = zip(by_nominal, by_geometry, strict=True)
         return [replace(one, real_deviations=other.real_deviations) for one, other in pairs]
 

@@ -21,10 +21,7 @@ THICK, GREY = 0.003, (120, 120, 120)  # m
 def log_meshes(
     rec: rr.RecordingStream, source: bytes, urdf: Path, prefix: str
 ) -> tuple[dict[str, list[str]], list[str]]:
-    """Log the visual meshes of a robot, each in the frame `<prefix>/<link>` of its link.
-
-    Args:
-        source: the content of the URDF at `urdf`.
+    """Log the visual meshes in the content of a URDF, each in its link's frame `<prefix>/<link>`.
 
     Returns their entities by link, links without any left out; and the names of the meshes that
     are in none of the URDF's packages and folders.
@@ -82,9 +79,7 @@ def link_placements(
 ) -> dict[str, np.ndarray]:
     """Placements (n, 4, 4) [m] of links in the world at joint angles (n, joint) [rad].
 
-    Args:
-        base: how the robot's base was shifted, if it was. The arm's joints include the shift,
-            the links before the first joint do not.
+    If the robot's base was shifted, the arm's joints include that, links before the first do not.
     """
     model, data, base = arm.model, arm.model.createData(), base or pin.SE3.Identity()
     frames = {link: model.getFrameId(link, pin.FrameType.BODY) for link in links}

@@ -57,7 +57,7 @@ def read_of(arm: Arm, path: str | PathLike[str], description: Description) -> Tr
         arm: the nominal arm, its tool at the point that was measured.
         description: what the table does not say itself, with where the instrument stands.
 
-    Raises InvalidFile (a table that cannot be used) and WrongNominal (another arm, or other units:
+    Raises InvalidFile (a table that cannot be used) and Mistaken (another arm, or other units:
     it does not get to the nominal positions in the table).
     """
     rows = read_measurements(path, arm, description)

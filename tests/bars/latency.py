@@ -17,8 +17,8 @@ from recalib import Arm, Correction, Description, Observations, initial_frames
 from recalib.identification.calibration import calibrate
 from recalib.identification.validation import CANDIDATES
 from recalib.laboratory.live.allowed import AllowedPostures
-from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.live.running import RunningCalibration
+from recalib.station.pictures import BoardInPictures
 from tests.bars.live import FINE, GEARS
 from tests.bars.stations import Seeing
 from tests.identification.real import ARMS, Real
@@ -43,7 +43,7 @@ def live(
     arm: Arm,
     postures: AllowedPostures,
     rows: Callable[[int], Observations],
-    pictures: Pictures | None = None,
+    pictures: BoardInPictures | None = None,
 ) -> None:
     """Of an update and of a proposal, by the first rows of some number."""
     for count in (50, 100, 200):

@@ -31,9 +31,10 @@ from recalib import (
 )
 from recalib.identification.closed_forms import solutions
 from recalib.laboratory.live.allowed import AllowedPostures
-from recalib.laboratory.live.record import Pictures, Record
+from recalib.laboratory.live.record import Record
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import LiveSettings, calibrate_live
+from recalib.station.pictures import BoardInPictures
 from tests.bars.stations import Seeing
 from tests.identification.real import ARMS, Real
 from tests.station.simulated import HOMES, Simulated
@@ -62,7 +63,7 @@ class Live:
         station: Station,
         true: Forward,
         nominal: Forward,
-        pictures: Pictures | None = None,
+        pictures: BoardInPictures | None = None,
     ):
         self.station = station
         home = station.angles()

@@ -16,6 +16,7 @@ from recalib.identification.closed_forms import solutions
 from recalib.identification.estimation import identify
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.linearisation import displacements
+from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.places import found_places
 from recalib.vision.detection import Corners, find_corners
 from recalib.vision.lens_search import find_lens
@@ -80,7 +81,8 @@ class Draw:
     def place(self, calibration: Calibration, shift: np.ndarray) -> float:
         """How far the one of camera and board that stands is off, over its stated deviation."""
         unknown = unidentifiable_parameters(calibration, self.pixels)
-        place, _ = found_places(calibration, unknown, ["moves"], [], self.cell.arm.tool, ["stands"])
+        data = DataSet(self.pixels, ("moves",), instruments=("stands",))
+        place, _ = found_places(calibration, unknown, data, self.cell.arm.tool)
         true = self.cell.sheet if self.in_hand else self.cell.eye
         error = displacements((shift @ place.pose)[None], true[None])[0, :3]
         return float(np.linalg.norm(error)) / place.deviations[0]

@@ -15,7 +15,7 @@ from recalib import (
     read_description,
 )
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.laboratory.plausibility.knowledge import WrongKnowledge
+from recalib.laboratory.plausibility.mistakes import Mistaken
 from recalib.laboratory.propose import propose
 from recalib.laboratory.report.summary import summary
 from tests.arms import SCARA
@@ -106,7 +106,7 @@ INVERTED = INSTRUMENT.replace('"1 m"', '"-1 m"')
     ids=["turned", "inverted", "target", "instrument alone", "target alone", "both"],
 )
 def test_a_frame_that_is_not_there_is_named(text, message, table):
-    with pytest.raises(WrongKnowledge, match=rf"the description's .*{message}"):
+    with pytest.raises(Mistaken, match=rf"the description's .*{message}"):
         calibrated_with(text, table)
 
 
@@ -185,7 +185,7 @@ def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
         (DISTANCE.format("middle", 300), InvalidFile, "names socket 'middle'; the table has left"),
         (
             DISTANCE.format("left", 400),
-            WrongKnowledge,
+            Mistaken,
             r"between left and right is 400 mm; in the URDF they are 29\d",
         ),
     ],

@@ -5,11 +5,11 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import Observations, initial_frames, load_arm
+from recalib import Description, Observations, initial_frames, load_arm
 from recalib.identification import NoInitialEstimate
 from recalib.laboratory.plausibility.knowledge import checked_frames, mistake_in
 from recalib.laboratory.plausibility.mistakes import (
-    WrongNominal,
+    Mistaken,
     check_nominal,
     likely_mistake,
     mistake_of_outliers,
@@ -106,7 +106,7 @@ MISTAKES = {
 
 @pytest.mark.parametrize(("spoil", "mistake"), MISTAKES.values(), ids=MISTAKES)
 def test_the_likely_mistake_is_named(spoil, mistake, arm, joints, nominal):
-    with pytest.raises(WrongNominal) as refusal:
+    with pytest.raises(Mistaken) as refusal:
         check_nominal(arm, *spoil(joints, nominal), np.eye(4), TOOL_POINT)
     assert f"likely: {mistake}" in str(refusal.value)
 
@@ -118,7 +118,7 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
     joints = real.postures(40)
     observations = Observations(*spoil(joints, real.poses(joints)[:, :3, 3]))
     with pytest.raises(NoInitialEstimate, match=f"; likely: {mistake}"):
-        checked_frames(arm, observations)
+        checked_frames(arm, observations, Description())
 
 
 @pytest.mark.parametrize(("factor", "unit"), [(180 / np.pi, "degrees"), (np.pi / 180, "radians")])
@@ -202,16 +202,16 @@ def test_so_it_is_of_poses(mistake, spoil, arm):
     real = Real(arm, 2)
     joints = real.postures(40)
     with pytest.raises(NoInitialEstimate, match=f"; likely: {mistake}"):
-        checked_frames(arm, Observations(*spoil(joints, real.poses(joints))))
+        checked_frames(arm, Observations(*spoil(joints, real.poses(joints))), Description())
 
 
 def test_a_tool_that_was_forgotten_is_named(arm, joints, nominal):
-    with pytest.raises(WrongNominal, match="likely: a tool point at"):
+    with pytest.raises(Mistaken, match="likely: a tool point at"):
         check_nominal(arm, joints, nominal, np.eye(4), np.eye(4))
 
 
 def test_where_all_positions_are_one_nothing_explains_them(arm, joints, nominal):
-    with pytest.raises(WrongNominal, match="is it another arm"):
+    with pytest.raises(Mistaken, match="is it another arm"):
         check_nominal(arm, joints, np.ones_like(nominal))
 
 
@@ -224,7 +224,7 @@ def test_a_mistake_leaves_no_row_far_off(arm, joints, nominal):
 
 
 def test_another_arm_is_no_mistake_of_a_column(joints, nominal):
-    with pytest.raises(WrongNominal, match="is it another arm"):
+    with pytest.raises(Mistaken, match="is it another arm"):
         check_nominal(load_arm("ur5_robot.urdf", "tool0"), joints, nominal)
 
 

@@ -13,6 +13,7 @@ from recalib.files import write_new
 from recalib.identification import HYBRID, identify
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.model import ErrorModel, displacements
+from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.places import found_places
 from recalib.laboratory.report.folder import files_of
 from tests.arms import INDUSTRIAL
@@ -42,7 +43,7 @@ def test_places_are_known_as_well_as_other_noise_moves_them(arm, load, positions
         model = ErrorModel(arm, OFFSETS, guess)
         calibration = Calibration(model, identify(model, observations))
         unidentifiable = unidentifiable or unidentifiable_parameters(calibration, observations)
-        drawn.append(found_places(calibration, unidentifiable, ["the target"], [], arm.tool))
+        drawn.append(found_places(calibration, unidentifiable, DataSet(observations), arm.tool))
     for found, truth in zip(
         zip(*drawn, strict=True), [np.linalg.inv(real.base), real.targets[0]], strict=True
     ):

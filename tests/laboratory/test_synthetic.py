@@ -174,13 +174,13 @@ def test_corrections_reach_and_proposals_teach(name, calibration_of, tmp_path):
     assert np.abs(reached - desired).max() < 1e-7
     ends = {"poses": "the tool link", "targets": "the arm's base and the tool link"}
     assert correction.unidentifiable_ends == ends[name]
-    proposal = propose(correction, 5)
-    assert (np.diff(proposal.uncertainty) < 0).all() and len(proposal.joints) == 5
+    joints, deviations = propose(correction, 5)
+    assert (np.diff(deviations) < 0).all() and len(joints) == 5
     candidates = np.concatenate([learned[:5], [[1.9] * 4]])  # the last near the ends of its ranges
-    chosen = propose(correction, 3, candidates).joints
+    chosen = propose(correction, 3, candidates)[0]
     assert all((candidates[:5] == one).all(axis=1).any() for one in chosen)
     positions = correction.calibration.forward(learned)[:, :3, 3]
-    by_position = propose(correction, 2, Goals.of(positions, None, 4)).joints
+    by_position = propose(correction, 2, Goals.of(positions, None, 4))[0]
     gaps = correction.calibration.forward(by_position)[:, None, :3, 3] - positions
     assert np.linalg.norm(gaps, axis=2).min(axis=1).max() < 1e-7
 

@@ -18,8 +18,8 @@ from recalib.identification import WAYS
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures import observe as observing
 from recalib.laboratory.pictures.observe import observe
-from recalib.laboratory.pictures.sessions import Cell as Cameras
-from recalib.laboratory.report.hand_eye import hand_eye
+from recalib.laboratory.pictures.sessions import Session
+from recalib.laboratory.report.folder import hand_eye
 from recalib.laboratory.report.summary import verdict
 from recalib.vision.detection import Corners, find_corners
 from recalib.vision.lenses import read_lens
@@ -163,7 +163,7 @@ def test_corners_that_no_board_can_have_are_refused(wrong, every, observed, tmp_
             row[2:] = f"{u:.4f}", f"{v:.4f}"
     path.write_text("\n".join(",".join(row) for row in [header, *rows]))
     with pytest.raises(InvalidFile, match=r"can have them|expected: inside|on a line") as error:
-        Cameras.read([tmp_path], load_arm("panda.urdf", "panda_link8"))
+        Session.read(tmp_path, load_arm("panda.urdf", "panda_link8"))
     assert every or "003.png" in str(error.value)
 
 
@@ -174,7 +174,7 @@ def test_rows_may_be_taken_out_and_moved(observed, tmp_path):
     header, first, *others = path.read_text().splitlines()
     path.write_text("\n".join([header, *others[:0:-1], first]))
     arm = load_arm("panda.urdf", "panda_link8")
-    (copy,), (whole,) = (Cameras.read([folder], arm).sessions for folder in (tmp_path, observed[0]))
+    copy, whole = (Session.read(folder, arm) for folder in (tmp_path, observed[0]))
     rows = [*range(PICTURES - 1, 1, -1), 0]
     assert np.array_equal(copy.rows.joints, whole.rows.joints[rows])
     for row, view in zip(rows, copy.views, strict=True):

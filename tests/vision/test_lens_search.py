@@ -7,7 +7,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib import calibrate_pictures, load_arm
-from recalib.laboratory.pictures.sessions import Cell as Cameras
 from recalib.laboratory.pictures.sessions import read_folders
 from recalib.laboratory.report.summary import verdict
 from recalib.laboratory.tables.description import Description
@@ -116,9 +115,9 @@ def test_a_lens_that_is_not_mild_is_found_and_the_arm_is_not_blamed(wide):
 def test_a_given_lens_that_leaves_much_more_than_another_is_doubted_before_the_arm(wide):
     (cell, observed), arm = wide, load_arm("panda.urdf", "panda_link8")
     wrong = replace(cell.lens, distortion=cell.lens.distortion * [1, 1, 1, 1, 0.9])
-    (doubt,) = Cameras.read([observed(wrong)], arm).doubts
+    (doubt,) = read_folders([observed(wrong)], arm, Description()).doubts
     assert doubt.startswith("the given lens has a reprojection error of")
-    assert not Cameras.read([observed(cell.lens)], arm).doubts
+    assert not read_folders([observed(cell.lens)], arm, Description()).doubts
 
 
 def test_a_picture_out_of_focus_shows_the_markers_that_others_lead_to():

@@ -13,8 +13,7 @@ import pytest
 from recalib import RecalibError, calibrate_pictures
 from recalib.identification.model import displacements
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.report.hand_eye import pixel_error
-from recalib.laboratory.report.summary import summary, verdict
+from recalib.laboratory.report.summary import pixel_error, summary, verdict
 from recalib.vision.lenses import Lens, read_lens
 from tests.bars.pictures import Draw
 from tests.conftest import few_folds
@@ -116,8 +115,9 @@ def test_several_cameras_and_boards_are_found_in_one_fit(setup, in_one_fit):
     assert set(result.scales) == {name for name in names if "board" in name}
     assert "Careful" not in verdict(result) and not len(result.doubted)
     assert result.correction.targets == targets
+    held_out = result.validation.held_out["in blocks"][result.validation.chosen]
     for sight in range(len(sessions)):
-        assert pixel_error(result, "in blocks", result.validation.chosen, sight) < 0.2
+        assert pixel_error(held_out, result.data.observations.targets == sight) < 0.2
     # what stands on one side, relative to the other things there: no gauge moves that
     for side in {place.link for place in result.places}:
         first, *others = (place for place in result.places if place.link == side)

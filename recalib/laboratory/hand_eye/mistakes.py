@@ -13,9 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from recalib.errors import RecalibError
 from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
 from recalib.laboratory.hand_eye.pose_table import PoseTable, other_readings
+from recalib.laboratory.plausibility.mistakes import Mistaken
 from recalib.laboratory.plausibility.steps import UNITS
 from recalib.spelling import counted
 
@@ -29,10 +29,6 @@ LOOSE = 1e-2  # a singular value so small, over the largest, leaves a direction 
 OPEN_SIZE = 0.1  # of such a direction: then it is one of the size
 SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it has to be off
 TILT = "try: poses that are tilted by 20 deg or more, about two axes"
-
-
-class Mistaken(RecalibError):
-    """Poses that do not determine where camera and board are, or fit only if read otherwise."""
 
 
 def check_motion(sights: Sights) -> None:
@@ -63,8 +59,7 @@ def check_motion(sights: Sights) -> None:
 def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> None:
     """Raise Mistaken if poses are likely wrong, or leave a place uncertain by decimetres.
 
-    Args:
-        flange, targets: the tables that they are from; None if pictures show the target.
+    They are from tables; targets are None if pictures show them.
     """
     remaining = found.misfit
     fits = remaining < WRONG
@@ -84,11 +79,15 @@ def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> N
             )
 
 
+def _misfit(sights: Sights) -> float:
+    return min(start.misfit for start in starts(sights))
+
+
 def _check_height(sights: Sights, remaining: float) -> None:
     """Raise Mistaken if poses fit much better without the height, which they determine, too."""
     if sights.height is None or sights.axes[0][1] < ONE_AXIS:
         return
-    best = min(start.misfit for start in starts(replace(sights, height=None)))
+    best = _misfit(replace(sights, height=None))
     if best < EXPLAINED * remaining:
         raise Mistaken(
             f"the poses do not fit the height ({1e3 * remaining:.3g} mm remain), but they do"
@@ -139,30 +138,7 @@ def _check_size(scale: float, deviation: float) -> None:
 def _check_readings(
     sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
 ) -> None:
-    """Raise Mistaken if poses that are read otherwise fit much better."""
-
-    def misfit(sights: Sights) -> float:
-        return min(start.misfit for start in starts(sights))
-
-    best, words = min(
-        ((misfit(other), words) for words, other in _others(sights, flange, targets)),
-        key=lambda pair: pair[0],
-    )
-    remain = f"({1e3 * remaining:.3g} mm remain)"
-    if best < EXPLAINED * misfit(sights):
-        but = f"but they do ({1e3 * best:.3g} mm) if {words}"
-        raise Mistaken(f"the poses do not fit as they are read {remain}, {but}")
-    if remaining > HOPELESS:
-        raise Mistaken(
-            f"the poses do not fit in any direction and convention {remain}; are rows and"
-            " pictures in the same order?"
-        )
-
-
-def _others(
-    sights: Sights, flange: PoseTable, targets: PoseTable | None
-) -> Iterator[tuple[str, Sights]]:
-    """Other ways to read the poses, in words, the simplest first."""
+    """Raise Mistaken if poses that are read otherwise, the simplest first, fit much better."""
     side, option = ("fixed", "fixed") if sights.in_hand else ("on the hand", "hand")
     direction = f"the camera is {side} (--camera {option}), or"
     direction += " the flange's poses are those of the base in it (--inverse flange)"
@@ -170,12 +146,22 @@ def _others(
     if targets is not None:
         direction += ", or the target's are those of the camera in it (--inverse targets)"
         boards = [*_readings("target", "--target-convention", targets)]
+    fits = []
     for theirs, board in boards:
         for own, poses in _readings("flange", "--convention", flange):
-            for flipped, way in enumerate(("", direction)):
-                right = np.linalg.inv(poses) if flipped else poses
-                if words := [*filter(None, (way, own, theirs))]:
-                    yield ", and ".join(words), replace(sights, flange=right, board=board)
+            for way, right in (("", poses), (direction, np.linalg.inv(poses))):
+                if words := ", and ".join(filter(None, (way, own, theirs))):
+                    fits.append((_misfit(replace(sights, flange=right, board=board)), words))
+    best, words = min(fits, key=lambda fit: fit[0])
+    remain = f"({1e3 * remaining:.3g} mm remain)"
+    if best < EXPLAINED * _misfit(sights):
+        but = f"but they do ({1e3 * best:.3g} mm) if {words}"
+        raise Mistaken(f"the poses do not fit as they are read {remain}, {but}")
+    if remaining > HOPELESS:
+        raise Mistaken(
+            f"the poses do not fit in any direction and convention {remain}; are rows and"
+            " pictures in the same order?"
+        )
 
 
 def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, np.ndarray]]:

@@ -5,13 +5,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
-from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from recalib.errors import InvalidFile, UnknownName
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER
 from recalib.files.storage import read_file
 from recalib.laboratory.tables.columns import (
@@ -36,25 +36,12 @@ _ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler's angles; no 
 
 @dataclass(frozen=True)
 class Convention:
-    """A way to write poses.
+    """A way to write poses."""
 
-    Attributes:
-        headings: of the rotation, in the order in which the controller shows it.
-        turns: the rotations of its numbers (n, k) [rad, 1].
-        length, angle: the units, unless the headings of a table have others.
-    """
-
-    headings: tuple[str, ...]
-    turns: Callable[[np.ndarray], Rotation]
-    length: str = ""
-    angle: str = ""
-
-    @property
-    def layout(self) -> tuple[Columns, Columns]:
-        """The columns of a table, all in lower case."""
-        kind = ANGLE if len(self.headings) == 3 else NUMBER
-        positions = Columns("positions", POSITIONS.headings, LENGTH, unit=self.length, needed=True)
-        return positions, Columns("turns", self.headings, kind, unit=self.angle, needed=True)
+    headings: tuple[str, ...]  # of the rotation, in the order in which the controller shows it
+    turns: Callable[[np.ndarray], Rotation]  # of its numbers (n, k) [rad, 1]
+    length: str = ""  # the unit, unless the headings of a table have another one
+    angle: str = ""  # likewise
 
 
 def _euler(order: str, *headings: str) -> Convention:
@@ -112,20 +99,13 @@ def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
 
 @dataclass(frozen=True)
 class PoseTable:
-    """Poses, row by row.
-
-    Attributes:
-        table: the file's cells.
-        positions, rotations: (n, 3) m and n rotations.
-        turns: (n, k) rad or 1, the numbers of the rotations.
-        inverted: whether poses are wanted in the other direction.
-    """
+    """Poses, row by row."""
 
     table: Table
-    positions: np.ndarray
+    positions: np.ndarray  # (n, 3) m
     rotations: Rotation
-    turns: np.ndarray
-    inverted: bool = False
+    turns: np.ndarray  # (n, k) rad or 1, the numbers of the rotations
+    inverted: bool = False  # whether poses are wanted in the other direction
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -142,10 +122,7 @@ class PoseTable:
 
 
 def read_poses(
-    path: str | PathLike[str],
-    convention: str | None = None,
-    unit: str | None = None,
-    inverted: bool = False,
+    path: AnyPath, convention: str | None = None, unit: str | None = None, inverted: bool = False
 ) -> PoseTable:
     """The poses in the table at `path`.
 
@@ -164,12 +141,21 @@ def read_poses(
     head, _, rest = text.partition("\n")
     table = table_of(f"{head.lower()}\n{rest}".encode(), path)
     if way is None or MATRIX[0] in table:
-        way = _by_headings(table)
+        way = next((own for own in OWN if all(name in table for name in own.headings)), None)
+    if way is None:
+        ways = listed((", ".join(own.headings) for own in OWN if own.headings != MATRIX), "or")
+        found = f"it has no rotation; expected: {ways}"
+        raise InvalidFile(path, f"{found}; or try: --convention, such as kuka")
+    kind = ANGLE if len(way.headings) == 3 else NUMBER
+    layout = (
+        Columns("positions", POSITIONS.headings, LENGTH, needed=True),
+        Columns("turns", way.headings, kind, needed=True),
+    )
     units = dict(table.units)
-    for columns, own in zip(way.layout, (unit or way.length, way.angle), strict=True):
+    for columns, own in zip(layout, (unit or way.length, way.angle), strict=True):
         units |= {name: units.get(name) or own for name in columns.headings}
     table = replace(table, units=units)
-    arrays = table.read((*way.layout, PICTURES), [*table.cells])
+    arrays = table.read((*layout, PICTURES), [*table.cells])
     turns, valid = arrays["turns"], NORMS.get(len(way.headings))
     if valid and (off := np.abs(np.linalg.norm(turns, axis=1) / valid - 1) > SKEW).any():
         found = f"has the norm {np.linalg.norm(turns, axis=1)[off][0]:.3g}"
@@ -181,17 +167,6 @@ def read_poses(
     except ValueError as error:  # of SciPy: a mirrored matrix
         raise InvalidFile(path, f"it has a matrix that is not a rotation: {error}") from None
     return PoseTable(table, arrays["positions"], rotations, turns, inverted)
-
-
-def _by_headings(table: Table) -> Convention:
-    """The convention of rotations, by the headings. Raises InvalidFile if there is none."""
-    for way in OWN:
-        if all(heading in table for heading in way.headings):
-            return way
-    valid = listed((", ".join(way.headings) for way in OWN if way.headings != MATRIX), "or")
-    raise InvalidFile(
-        table.path, f"it has no rotation; expected: {valid}; or try: --convention, such as kuka"
-    )
 
 
 def _headed(text: str, path: Path, way: Convention | None) -> str:

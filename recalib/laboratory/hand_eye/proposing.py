@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, RecalibError
 from recalib.files.archives import refused
 from recalib.files.storage import read_toml
 from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, information
@@ -20,8 +20,8 @@ from recalib.identification.model.linearisation import LEVER
 from recalib.laboratory.hand_eye.calibrating import HAND_EYE, POSES
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.laboratory.live.allowed import Box
-from recalib.laboratory.pictures.observed import IN_HAND, LENS, SETUP
-from recalib.laboratory.propose import NoUsefulPosture
+from recalib.laboratory.options import IN_HAND
+from recalib.laboratory.pictures.observed import LENS, SETUP
 from recalib.numerics.randomness import generator
 from recalib.vision.boards import Board, board_in
 from recalib.vision.detection import Corners
@@ -44,7 +44,7 @@ def propose_poses(
         box: of the flange's positions in the base (default: those measured, and a little beyond).
         cone: rad, between the line of sight and the board's normal.
 
-    Raises InvalidFile: it is no such folder; NoUsefulPosture: the board would not be seen.
+    Raises InvalidFile: it is no such folder; RecalibError: the board would not be seen.
     """
     home = Path(folder)
     if not (home / SETUP).is_file():
@@ -121,5 +121,5 @@ def _drawn(found: HandEye, board: Board, lens: Lens, box: Box | None, cone: floa
     shown = found.predict(Sights(drawn, drawn, sights.in_hand))
     _, visible = predicted_views(board, lens, shown, False)
     if not visible.any():
-        raise NoUsefulPosture("the board would not be seen from any pose in the box and cone")
+        raise RecalibError("the board would not be seen from any pose in the box and cone")
     return drawn[visible][:DRAWN]

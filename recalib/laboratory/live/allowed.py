@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, NoReturn
+from itertools import islice
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from recalib.station.interface import StationFailed
 DRAWN, MOST = 2000, 400  # postures that are drawn, and of those that are allowed, kept
 FEWEST = 20  # to choose from
 STEP = 0.02  # rad, m of the fastest joint, between the postures of a path that are checked
+Problem = tuple[str, str]  # what was found and what was expected, in words
 _RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s*")
 
 
@@ -41,15 +42,7 @@ class Box:
             if low >= high:
                 raise InvalidSetting("--box", text, "a range from its lower end to its upper end")
             ends.append((low, high))
-        lower, upper = np.array(ends).T
-        return cls(lower, upper)
-
-
-class Problem(NamedTuple):
-    """Why an arm may not stand in a posture: what was found and what was expected, in words."""
-
-    found: str
-    expected: str
+        return cls(*np.array(ends).T)
 
 
 class AllowedPostures:
@@ -58,16 +51,11 @@ class AllowedPostures:
     They follow from the arguments alone, so that a killed calibration goes on as it began.
 
     Args:
-        arm: the nominal one.
         home: (joints,) rad, m where the arm stood at first.
         limits: lower and upper (joints,) rad, m that the station allows; those of the URDF hold,
             too, and the outermost part of each joint's range is left out.
         span, box: see `LiveSettings`.
         clearance: what must not touch in postures and on paths; default: anything may.
-
-    Attributes:
-        home: as given.
-        joints: (n, joints) rad, m, in the order in which they were drawn.
 
     Raises InvalidSetting: home is not allowed, or hardly anything else.
     """
@@ -94,25 +82,20 @@ class AllowedPostures:
             raise InvalidSetting("the first posture", *problem)
         low, high = np.maximum(lower, home - reach), np.minimum(upper, home + reach)
         drawn = generator(0, "postures of a live calibration").uniform(low, high, (DRAWN, len(low)))
-        found = []
-        for posture in drawn:
-            # most fail at their ends, which are quickly looked at
-            if not self._obstacle(posture) and self._is_free(home, posture):
-                found.append(posture)
-            if len(found) == MOST:
-                break
+        # most fail at their ends, which are quickly looked at
+        allowed = (end for end in drawn if not self._obstacle(end) and self._is_free(home, end))
+        found = [*islice(allowed, MOST)]
         if len(found) < FEWEST:
             raise InvalidSetting(
                 "--span",
                 f"{np.degrees(span):.3g} deg, with {len(found)} of {DRAWN} postures allowed",
                 f"at least {FEWEST}; try: more room, such as a wider --box or a lower --floor",
             )
-        self.joints = np.array(found)
+        self.joints = np.array(found)  # (n, joints) rad, m, in the order in which they were drawn
 
     def tool(self, joints: np.ndarray) -> np.ndarray:
         """The nominal tool's position (3,) [m] in the arm's base."""
-        place: np.ndarray = self._arm.forward(joints[None])[0, :3, 3]
-        return place
+        return self._arm.forward(joints[None])[0, :3, 3]
 
     def path(self, start: np.ndarray, goal: np.ndarray) -> list[np.ndarray]:
         """Where to go in turn, to be at an allowed posture at last: straight, or by way of home.
@@ -129,16 +112,16 @@ class AllowedPostures:
         It may stand as far from where it was sent as a station may miss that.
         """
         if problem := self._problem(start, REACHED):
-            self._refuse("stands", start, problem)
+            raise self._refusal("stands", start, *problem)
         for posture in self._between(start, goal):
             if problem := self._obstacle(posture, REACHED):
-                self._refuse("would pass", posture, problem)
+                raise self._refusal("would pass", posture, *problem)
 
-    def _refuse(self, what: str, joints: np.ndarray, problem: Problem) -> NoReturn:
+    def _refusal(self, what: str, joints: np.ndarray, found: str, expected: str) -> StationFailed:
         place = ", ".join(f"{1e3 * x:.0f}" for x in self.tool(joints))
-        raise StationFailed(
-            f"the arm {what} with its tool at ({place}) mm and {problem.found}; expected:"
-            f" {problem.expected}; try: move it by hand to where the first row was measured"
+        return StationFailed(
+            f"the arm {what} with its tool at ({place}) mm and {found}; expected: {expected}; try:"
+            " move it by hand to where the first row was measured"
         )
 
     def _between(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
@@ -161,7 +144,7 @@ class AllowedPostures:
                 scale, unit = (1e3, "mm") if self._arm.slides[joint] else (180 / np.pi, "deg")
                 here, least, most = (f"{scale * ends[joint]:.1f}" for ends in (joints, low, high))
                 found = f"{self._arm.joints[joint]} at {here} {unit}"
-                return Problem(found, f"{least} to {most} {unit}, {which}")
+                return found, f"{least} to {most} {unit}, {which}"
         return self._obstacle(joints, slack)
 
     def _obstacle(self, joints: np.ndarray, slack: float = 0.0) -> Problem | None:
@@ -170,9 +153,9 @@ class AllowedPostures:
             place = self.tool(joints)
             if ((place < box.low - slack) | (place > box.high + slack)).any():
                 where = ", ".join(f"{1e3 * x:.0f} mm" for x in place)
-                return Problem(f"the tool at ({where})", "within --box")
+                return f"the tool at ({where})", "within --box"
         if self._clearance and (pair := self._clearance.touching(joints, MARGIN - slack)):
             option = "--floor" if FLOOR in pair else "--no-self-collision"
             found = f"{pair[0]} nearer than {1e3 * MARGIN:.0f} mm to {pair[1]}"
-            return Problem(found, f"more room, or another {option} if this is wrong")
+            return found, f"more room, or another {option} if this is wrong"
         return None

@@ -21,14 +21,10 @@ class Clearance:
     whose meshes do not.
 
     Args:
-        arm: the nominal one.
         home: (joints,) rad, m where the arm stands without touching itself.
         shapes: of its links; see `load_shapes`.
         floor, self_collision: see `LiveSettings`.
         tool_radius: m about the tool link's origin that what the tool carries may take.
-
-    Attributes:
-        pairs: the names of the shapes that keep apart.
     """
 
     def __init__(
@@ -41,7 +37,8 @@ class Clearance:
         tool_radius: float,
     ):
         self._model, self._data = arm.model, arm.model.createData()
-        self._shapes, self.pairs = pin.GeometryModel(), list[tuple[str, str]]()
+        self._shapes = pin.GeometryModel()
+        self.pairs: list[tuple[str, str]] = []  # the names of the shapes that keep apart
         self._margins: dict[float, pin.GeometryData] = {}
         frame = arm.model.frames[tool_frame(arm.model, arm.tool)]
         own = TOOL, frame.parentJoint, frame.placement, coal.Sphere(max(tool_radius, 1e-6))
@@ -80,12 +77,10 @@ class Clearance:
 
     def _distance(self, *pair: pin.GeometryObject) -> float:
         """How far apart [m] two shapes are at home."""
-        places = [self._data.oMi[shape.parentJoint] * shape.placement for shape in pair]
-        args = [
-            part
-            for shape, place in zip(pair, places, strict=True)
-            for part in (shape.geometry, coal.Transform3s(place.rotation, place.translation))
-        ]
+        args = []
+        for shape in pair:
+            place = self._data.oMi[shape.parentJoint] * shape.placement
+            args += [shape.geometry, coal.Transform3s(place.rotation, place.translation)]
         return float(coal.distance(*args, coal.DistanceRequest(), coal.DistanceResult()))
 
 

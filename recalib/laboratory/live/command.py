@@ -7,20 +7,24 @@ import termios
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.live.allowed import Box
-from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.live.session import Answer, Ended, LiveSettings, Move, calibrate_live
+from recalib.laboratory.options import IN_HAND
 from recalib.laboratory.tables.description import read_description
 from recalib.nominal.arms import load_arm
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.shapes import load_shapes
 from recalib.station.interface import Station
 from recalib.station.opening import open_station
+
+if TYPE_CHECKING:  # it needs OpenCV
+    from recalib.station.pictures import BoardInPictures
 
 # Who closes the terminal, ends the program, or wants it in the background means a stop, too.
 STOPPING = signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP
@@ -29,15 +33,20 @@ TURNED = 0.05  # deg, mm: a joint that moves less is not listed
 
 
 def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) -> Ended:
-    """Move, measure and write rows as the options say.
-
-    Raises RecalibError, as `calibrate_live` and as what reads the options.
-    """
-    arm, settings = load_arm(given.urdf, given.tool, given.base), _settings(given)
+    """Move, measure and write rows as the options say. Raises as `calibrate_live`."""
+    arm = load_arm(given.urdf, given.tool, given.base)
+    error = None if given.error is None else LENGTH.value_of("--error", given.error)
+    box = None if given.box is None else Box.read(given.box)
+    floor = None if given.floor == "none" else LENGTH.value_of("--floor", given.floor)
+    span, apart = ANGLE.value_of("--span", given.span), not given.no_self_collision
+    try:
+        settings = LiveSettings(error, given.most, span, box, given.speed, floor, apart)
+    except InvalidSetting as wrong:
+        raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
     if given.board is None and (given.lens or given.camera):
         raise InvalidSetting("--board", None, "a board for --lens and --camera")
     opening: Callable[[], Station] = partial(open_station, given.station)
-    pictures: Pictures | None = None
+    pictures: BoardInPictures | None = None
     if given.board is not None:
         opening, pictures = _with_board(opening, given)
     checked = settings.self_collision or settings.floor is not None
@@ -71,23 +80,10 @@ def _signals_that_stop() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _settings(given: argparse.Namespace) -> LiveSettings:
-    error = None if given.error is None else LENGTH.value_of("--error", given.error)
-    box = None if given.box is None else Box.read(given.box)
-    floor = None if given.floor == "none" else LENGTH.value_of("--floor", given.floor)
-    span = ANGLE.value_of("--span", given.span)
-    checked = not given.no_self_collision
-    try:
-        return LiveSettings(error, given.most, span, box, given.speed, floor, checked)
-    except InvalidSetting as wrong:
-        raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
-
-
 def _with_board(
     opening: Callable[[], Station], given: argparse.Namespace
-) -> tuple[Callable[[], Station], Pictures]:
+) -> tuple[Callable[[], Station], "BoardInPictures"]:
     """A function that opens a station with a camera as one that measures, and the pictures."""
-    from recalib.laboratory.pictures.observed import IN_HAND
     from recalib.station.pictures import BoardInPictures, PicturesOfABoard
     from recalib.vision.boards import read_board
     from recalib.vision.lenses import read_lens

@@ -4,46 +4,25 @@ import csv
 import fcntl
 import io
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file, whole
 from recalib.identification.model.observations import Observations
-from recalib.identification.model.optics import Optics
 from recalib.laboratory.data_set import data_set
-from recalib.laboratory.tables.columns import PICTURES
+from recalib.laboratory.tables.columns import PICTURE, PICTURES
 from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.measurements import joint_headings, measurements_so_far, read_desired
 from recalib.laboratory.tables.table import MOST, table_text
 from recalib.nominal.kinematics import Arm
 
-(PICTURE,) = PICTURES.headings
-
-
-class Pictures(Protocol):
-    """Information in pictures beyond the measured poses.
-
-    Attributes:
-        tool_radius: m about the tool link's origin that a board there may take.
-    """
-
-    tool_radius: float
-
-    def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
-        """Poses (n, 4, 4) [m] in pictures, and their information. Raises InvalidFile."""
-        ...
-
-    def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Of pictures with these poses (n, 4, 4) [m]: slopes of `Optics`, and whether they show it.
-
-        The slopes are (n, 6, o); whether the whole target would be seen is (n,).
-        """
-        ...
+if TYPE_CHECKING:  # it needs OpenCV
+    from recalib.station.pictures import BoardInPictures
 
 
 class Record:
@@ -58,12 +37,6 @@ class Record:
         description: what the table does not say itself.
         pictures: what those in its column `picture` say, which is used instead of its poses.
 
-    Attributes:
-        pictures: as given.
-        observations: the rows; None while there are none.
-        skipped: postures (n, joints) [rad, m].
-        dropped: the row without an end, if there was one.
-
     Raises InvalidFile: it is not such a table, or another process writes it.
     """
 
@@ -72,12 +45,12 @@ class Record:
         path: str | os.PathLike[str],
         arm: Arm,
         description: Description,
-        pictures: Pictures | None = None,
+        pictures: "BoardInPictures | None" = None,
     ):
         self.path, self._arm, self._description = Path(path), arm, description
         self.pictures = pictures
-        self.observations: Observations | None = None
-        self.dropped = ""
+        self.observations: Observations | None = None  # the rows; None while there are none
+        self.dropped = ""  # the row without an end, if there was one
         self._joints = joint_headings(arm, "rad", "m")
         self._skips = self.path.with_name(f"{self.path.stem}_skipped{self.path.suffix}")
         try:
@@ -115,7 +88,7 @@ class Record:
         elif not (content.startswith(start) or start.startswith(content)):
             raise InvalidFile(self.path, "it was not started by recalib live")
         os.ftruncate(self._file, len(self._content))
-        self.skipped = self._read_skipped()
+        self.skipped = self._read_skipped()  # (n, joints) rad, m
 
     def _read_skipped(self) -> np.ndarray:
         if not self._skips.exists():
@@ -140,11 +113,8 @@ class Record:
     ) -> tuple[Observations, bytes]:
         """The rows with a further one, and its text, before it is written.
 
-        Args:
-            angles: (joints,) rad, m where the arm stood.
-            cells: the measurements there, by the headers of its columns.
-
-        Raises InvalidFile: its columns are others than before, or its cells are not a measurement.
+        It has the angles (joints,) [rad, m] where the arm stood, and the cells measured there, by
+        headers. Raises InvalidFile: columns other than before, or cells that are no measurement.
         """
         names, row = [*self._joints, *map(str, cells)], [*angles.tolist(), *cells.values()]
         header = self._header if len(self) else names
@@ -153,15 +123,9 @@ class Record:
                 self.path,
                 f"its columns are {', '.join(header)}; the station gives {', '.join(names)}",
             )
-        if len(self):
-            picture = str(cells.get(PICTURE) or "")
-            if picture and picture in _pictures_in(self._content):
-                reason = f"{picture} is in an earlier row; expected: a new file for each picture"
-                raise InvalidFile(self.path, reason)
-            row = [row[names.index(name)] for name in header]
+        row = [row[names.index(name)] for name in header]
         text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerows([row] if len(self) else [header, row])
+        csv.writer(text, lineterminator="\n").writerows([row] if len(self) else [header, row])
         line = text.getvalue().encode()
         return self._read(self._content + line), line
 
@@ -195,13 +159,13 @@ class Record:
         if len(data.targets) > 1:
             names = ", ".join(data.targets)
             raise InvalidFile(self.path, f"it has the targets {names}; expected: one and the same")
+        *before, last = (
+            rows.columns[PICTURES.name].tolist() if PICTURES.name in rows.columns else [""]
+        )
+        if last and last in before:
+            reason = f"{last} is in an earlier row; expected: a new file for each picture"
+            raise InvalidFile(self.path, reason)
         if self.pictures is None:
             return data.observations
-        poses, optics = self.pictures(_pictures_in(content))
+        poses, optics = self.pictures([*before, last])
         return replace(data.observations, measured=poses, optics=optics)
-
-
-def _pictures_in(content: bytes) -> list[str]:
-    """The paths in the column `picture`; none where there is no such column."""
-    rows = csv.DictReader(io.StringIO(content.decode("utf-8-sig")))
-    return [row[PICTURE] for row in rows] if PICTURE in (rows.fieldnames or ()) else []

@@ -6,6 +6,7 @@ killed goes on as if it had not been. That is fast enough without many waves and
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.distance import cdist
@@ -21,12 +22,14 @@ from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 from recalib.laboratory.live.allowed import AllowedPostures
-from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.plausibility.knowledge import checked_frames
 from recalib.laboratory.propose import PROBES
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED
+
+if TYPE_CHECKING:  # it needs OpenCV
+    from recalib.station.pictures import BoardInPictures
 
 MODELS = OFFSETS, JOINT_ERRORS  # of which the more probable one is used
 FIRST = 20  # rows for an initial estimate of instrument and target: more take longer
@@ -41,8 +44,6 @@ class RunningCalibration:
     """Calibrations of an arm from rows that become more: geometry, and joint errors if it has any.
 
     Args:
-        arm: the nominal one.
-        description: frames that are known.
         postures: that may be measured.
         pictures: by which the rows are measured, if cameras do it.
     """
@@ -52,10 +53,10 @@ class RunningCalibration:
         arm: Arm,
         description: Description,
         postures: AllowedPostures,
-        pictures: Pictures | None = None,
+        pictures: "BoardInPictures | None" = None,
     ):
         self._arm, self._description, self._postures = arm, description, postures
-        self._pictures = pictures
+        self._pictures, self._probes = pictures, postures.joints[:PROBES]
         self._scale = np.where(arm.slides, 1.0, LEVER)  # m for a rad, or for a m
         self._frames: dict[int, Frames] = {}  # by the number of rows that they are from
         self._calibrations: dict[int, Calibration] = {}
@@ -70,10 +71,8 @@ class RunningCalibration:
         """From all rows. Raises RecalibError: they do not fit the arm."""
         count, some = len(observations), min(FIRST, len(observations))
         if some not in self._frames:
-            given = self._description.instrument, self._description.target
             poses = replace(observations[:some], optics=None)
-            frames = checked_frames(self._arm, poses, *given)
-            self._frames[some] = self._description.stated_in(frames)
+            self._frames[some] = checked_frames(self._arm, poses, self._description)
         if count not in self._calibrations:
             frames = self._frames[some]
             if observations.optics is not None:
@@ -105,10 +104,7 @@ class RunningCalibration:
         return float(self._expected(calibration, self._probes, optics, surprise).mean())
 
     def gain(self, observations: Observations, avoided: list[np.ndarray]) -> float:
-        """The fraction by which the next postures would reduce the predicted error.
-
-        These are the most informative ones, without `avoided` as in `next_posture`.
-        """
+        """The fraction by which the most informative postures would reduce the predicted error."""
         further = [*self._most_informative(observations, avoided, AHEAD)]
         if not further:
             return 0.0
@@ -134,9 +130,7 @@ class RunningCalibration:
         informative one. Candidates nearer to an avoided posture than to a measured one are left
         out, and the more are avoided, the nearer candidates are to measured ones. So are those
         where a camera would see less than half of its board, unless nothing else remains.
-
-        Args:
-            avoided: postures (joints,) in which the target was not seen, or that were skipped.
+        Avoided are postures (joints,) in which the target was not seen, or that were skipped.
         """
         if self.is_ready(observations):
             best = next((one for one, _ in self._most_informative(observations, avoided, 1)), None)
@@ -215,10 +209,6 @@ class RunningCalibration:
                 row = self._weighed(observations, before)[before : before + 1]
                 found.append(float(surprises(calibration, row)[0]))
         return max(1.0, float(np.median(found[1:] or found)))
-
-    @property
-    def _probes(self) -> np.ndarray:
-        return self._postures.joints[:PROBES]
 
     @staticmethod
     def _expected(

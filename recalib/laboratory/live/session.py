@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from os import PathLike
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -14,12 +14,15 @@ from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.clearance import Clearance
-from recalib.laboratory.live.record import Pictures, Record
+from recalib.laboratory.live.record import Record
 from recalib.laboratory.live.running import AHEAD, RunningCalibration
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED, Guarded, StationRaised
 from recalib.station.interface import Station, StationFailed
+
+if TYPE_CHECKING:  # it needs OpenCV
+    from recalib.station.pictures import BoardInPictures
 
 USELESS = 0.05  # a part of the predicted error: what gains less is not worth ten moves
 SOON = 20  # rows before which that is not asked: errors beyond geometry do not show in fewer
@@ -77,17 +80,12 @@ class Answer(Enum):
 
 
 class Move(NamedTuple):
-    """A proposed move.
+    """A proposed move from start to goal."""
 
-    Attributes:
-        start, goal: (joints,) rad, m where the arm stands, and where it is to go.
-        tool_before, tool_after: (3,) m, the nominal tool there, in the arm's base.
-    """
-
-    start: np.ndarray
-    goal: np.ndarray
-    tool_before: np.ndarray
-    tool_after: np.ndarray
+    start: np.ndarray  # (joints,) rad, m where the arm stands
+    goal: np.ndarray  # (joints,) rad, m where it is to go
+    tool_before: np.ndarray  # (3,) m, the nominal tool in the arm's base
+    tool_after: np.ndarray  # likewise
 
 
 class Ended(NamedTuple):
@@ -106,7 +104,7 @@ def calibrate_live(
     description: Description | None = None,
     on_progress: Callable[[str], None] = lambda line: None,
     on_row: Callable[[Observations, RunningCalibration], None] = lambda rows, running: None,
-    pictures: Pictures | None = None,
+    pictures: "BoardInPictures | None" = None,
     shapes: pin.GeometryModel | None = None,
 ) -> Ended:
     """Let an arm move and measure until its calibration is accurate enough.
@@ -147,7 +145,10 @@ def calibrate_live(
         postures = AllowedPostures(
             arm, home, station.limits(), settings.span, settings.box, clearance
         )
-        on_progress(_where_it_will_be(postures))
+        places = 1e3 * np.array([postures.tool(joints) for joints in postures.joints])
+        ends = zip("xyz", places.min(axis=0), places.max(axis=0), strict=True)
+        ranges = ", ".join(f"{axis} from {low:.0f} to {high:.0f} mm" for axis, low, high in ends)
+        on_progress(f"the tool's range in all candidate postures, in the arm's base: {ranges}")
         if not (shapes and shapes.ngeoms) and (settings.floor is not None or checks[1]):
             on_progress(
                 "the URDF has no readable link shapes: floor and self-collision are not checked for"
@@ -174,21 +175,9 @@ def calibrate_live(
         record.close()
 
 
-def _where_it_will_be(postures: AllowedPostures) -> str:
-    """The range of all goals, in words."""
-    places = 1e3 * np.array([postures.tool(joints) for joints in postures.joints])
-    ends = zip("xyz", places.min(axis=0), places.max(axis=0), strict=True)
-    ranges = ", ".join(f"{axis} from {low:.0f} to {high:.0f} mm" for axis, low, high in ends)
-    return f"the tool's range in all candidate postures, in the arm's base: {ranges}"
-
-
 @dataclass(frozen=True)
 class _Session:
-    """A calibration that goes on: the station, the rows so far, and the postures to come.
-
-    Attributes:
-        avoided: postures that a person skipped, or in which the target is not seen; it grows.
-    """
+    """A calibration that goes on: the station, the rows so far, and the postures to come."""
 
     station: Guarded
     record: Record
@@ -196,7 +185,7 @@ class _Session:
     postures: AllowedPostures
     running: RunningCalibration
     on_progress: Callable[[str], None]
-    avoided: list[np.ndarray]
+    avoided: list[np.ndarray]  # skipped by a person, or without sight of the target; it grows
 
     def run(
         self,

@@ -17,13 +17,13 @@ from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.pictures.observed import (
     LEAST,
     NAME,
-    PICTURE,
     WIDE,
     Observed,
     Picture,
     doubt_of,
     views_of,
 )
+from recalib.laboratory.tables.columns import PICTURE
 from recalib.laboratory.tables.table import Table, read_table
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import FEWEST as FEWEST_CORNERS
@@ -51,13 +51,10 @@ def observe(
     """Find a board in pictures.
 
     Args:
-        folder: of the pictures.
         joints: a table (CSV) with a column `picture`, which names them.
         board: the description of the board (TOML), which has the name of the file.
         lens: a calibration of the lens (YAML of ROS or OpenCV; default: estimated).
-        in_hand: whether the camera is on the hand.
-        on_progress: called with the current step, in a line each.
-        camera: the name of the camera, among several.
+        camera: its name, among several.
         least: how many pictures have to be of use.
 
     Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.
@@ -118,11 +115,7 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
 
 
 def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool) -> list[Picture]:
-    """The pictures without those of another size, repeated ones and blurred ones.
-
-    Args:
-        by_lens: whether the size is of a given lens.
-    """
+    """The pictures without those of another size (of a given lens), repeated and blurred ones."""
     expected = "expected, as by the lens" if by_lens else "expected"
     first: dict[str, str] = {}
     done = []

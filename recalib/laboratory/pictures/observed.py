@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from recalib.errors import RecalibError
+from recalib.laboratory.options import FIXED, IN_HAND
 from recalib.laboratory.report.templates import render
-from recalib.laboratory.tables.columns import ERRORS, NOMINAL, PICTURES, POSITIONS, ROTATIONS
+from recalib.laboratory.tables.columns import ERRORS, NOMINAL, PICTURE, POSITIONS, ROTATIONS
 from recalib.laboratory.tables.measurements import pose_rows
 from recalib.laboratory.tables.table import Table, table_text
 from recalib.vision.boards import Board
@@ -18,7 +19,6 @@ from recalib.vision.lenses import Lens
 from recalib.vision.views import optics_kinds
 
 NAME = re.compile(r"[\w-]+", re.ASCII)  # of a camera or a board, as TOML and ROS take it
-(PICTURE,) = PICTURES.headings
 OBSERVED, CORNERS, SETUP, LENS = "measurements.csv", "corners.csv", "setup.toml", "lens.yaml"
 WIDE = 300  # px, of a picture on the page
 LEAST = 0.5  # px: a reprojection error as small is never a reason
@@ -29,64 +29,39 @@ UNSETTLED = (
     "the estimation of the lens did not converge; try: pictures that"
     " show the board tilted, near and far, and in all parts of the picture"
 )
-FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture and the corners found in it.
+    """A picture and the corners found in it."""
 
-    Attributes:
-        row: in the table, from 1.
-        name: of the file.
-        size: width and height [px]; None if it cannot be read.
-        small: a small grey copy for the page; None likewise.
-        digest: of the pixels.
-        corners: None if it is refused.
-        reason: why it is refused; empty if it is not.
-        error: px, the root mean square of the corners' reprojection errors.
-        pose: (4, 4) m of the board in the camera.
-    """
-
-    row: int
-    name: str
-    size: tuple[int, int] | None = None
-    small: np.ndarray | None = None
-    digest: str = ""
-    corners: Corners | None = None
-    reason: str = ""
-    error: float = np.nan
-    pose: np.ndarray | None = None
+    row: int  # in the table, from 1
+    name: str  # of the file
+    size: tuple[int, int] | None = None  # width and height [px]; None if it cannot be read
+    small: np.ndarray | None = None  # a small grey copy for the page; None likewise
+    digest: str = ""  # of the pixels
+    corners: Corners | None = None  # None if it is refused
+    reason: str = ""  # why it is refused; empty if it is not
+    error: float = np.nan  # px, the root mean square of the corners' reprojection errors
+    pose: np.ndarray | None = None  # (4, 4) m of the board in the camera
 
     def refused(self, reason: str) -> "Picture":
-        """The same picture, refused."""
         return replace(self, corners=None, reason=reason, error=np.nan, pose=None)
 
 
 @dataclass(frozen=True)
 class Observed:
-    """Corners, lens and refusals of a folder of pictures.
+    """Corners, lens and refusals of a folder of pictures."""
 
-    Attributes:
-        table: the joints of each picture.
-        board: in all pictures.
-        own: the lens estimated from these pictures.
-        given: the lens, if it is known; otherwise the estimated one counts.
-        in_hand: whether the camera is on the hand.
-        pictures: all of the table.
-        unlisted: names of pictures that are not in the table.
-        camera, board_name: their names among several.
-    """
-
-    table: Table
-    board: Board
-    own: FoundLens
-    given: Lens | None
-    in_hand: bool
-    pictures: Sequence[Picture]
-    unlisted: Sequence[str]
-    camera: str = "camera"
-    board_name: str = "board"
+    table: Table  # with the joints of each picture
+    board: Board  # in all pictures
+    own: FoundLens  # estimated from these pictures
+    given: Lens | None  # if it is known; otherwise the estimated one counts
+    in_hand: bool  # whether the camera is on the hand
+    pictures: Sequence[Picture]  # all of the table
+    unlisted: Sequence[str]  # names of pictures that are not in the table
+    camera: str = "camera"  # its name among several
+    board_name: str = "board"  # likewise
 
     @property
     def lens(self) -> Lens:
@@ -106,11 +81,9 @@ class Observed:
 
     @property
     def doubt(self) -> str | None:
-        """A warning about the lens, without its full stop."""
         return doubt_of(self.given, self.own, views_of(self.board, self.used))
 
     def summary(self) -> str:
-        """A page of text."""
         return render("observed.txt.j2", result=self, used=self.used)
 
     @property
@@ -154,11 +127,7 @@ class Observed:
 
 
 def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str | None:
-    """What is doubtful about the lens of some pictures, in a sentence without its full stop.
-
-    Args:
-        given: the lens, if it is known; otherwise the estimated one counts.
-        own: the lens estimated from the pictures.
+    """What is doubtful about a given lens, or one of these pictures' own, without its full stop.
 
     Raises RecalibError: a given lens that cannot be theirs.
     """

@@ -15,7 +15,6 @@ QUALITY = 70  # of JPEG
 
 
 def page_of_pictures(result: Observed) -> bytes:
-    """The page of what `recalib observe` found."""
     return render(
         "pictures.html.j2",
         notes=result.summary().splitlines(),

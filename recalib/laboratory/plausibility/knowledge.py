@@ -11,7 +11,6 @@ from itertools import combinations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import RecalibError
 from recalib.identification.initial_estimate import (
     FARTHEST,
     NoInitialEstimate,
@@ -22,37 +21,25 @@ from recalib.identification.initial_estimate import (
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.data_set import DataSet
-from recalib.laboratory.plausibility.mistakes import likely_mistake
+from recalib.laboratory.plausibility.mistakes import Mistaken, likely_mistake
+from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 
 ALIKE = 2.0  # times the least error: as good an explanation
 STRETCHED = 0.2  # of a distance: no arm is so much longer or shorter than described
 
 
-class WrongKnowledge(RecalibError):
-    """A description contradicts the measurements."""
+def checked_frames(arm: Arm, observations: Observations, known: Description) -> Frames:
+    """Initial estimates of the frames at both ends of the nominal arm, as well known as stated.
 
-
-def checked_frames(
-    arm: Arm,
-    observations: Observations,
-    instrument: np.ndarray | None = None,
-    target: np.ndarray | None = None,
-) -> Frames:
-    """Initial estimates of the frames at both ends of the nominal arm.
-
-    Args:
-        instrument: (4, 4) m in the arm's base frame, if known.
-        target: (4, 4) m in the tool link's frame, if known, the same for all targets.
-
-    Raises WrongKnowledge: without one of them that is given, the measurements are explained.
+    Raises Mistaken: without a frame that is described, the measurements are explained.
     NoInitialEstimate: nothing explains them; with the likely mistake, if there is one.
     """
-    described = {"base": instrument, "target": target}
+    described = {"base": known.instrument, "target": known.target}
     stated = {name: pose for name, pose in described.items() if pose is not None}
     given = {name: np.linalg.inv(pose) if name == "base" else pose for name, pose in stated.items()}
     try:
-        return initial_frames(arm, observations, **given)
+        return known.stated_in(initial_frames(arm, observations, **given))
     except NoInitialEstimate as error:
         problem = error
     without, errors, tool = {}, {}, arm.forward(observations.joints)
@@ -62,7 +49,11 @@ def checked_frames(
             without[wrong] = initial_frames(arm, observations, **right)
             errors[wrong] = median_error(without[wrong], tool, observations)
     if not without:
-        mistake = mistake_in(arm, observations) or _of_rotations(arm, observations)
+        mistake = mistake_in(arm, observations)
+        if mistake is None and observations.kinds == 2:
+            with suppress(NoInitialEstimate):
+                initial_frames(arm, replace(observations, measured=observations.positions))
+                mistake = "rotations of another frame or in another notation: positions alone fit"
         raise NoInitialEstimate(f"{problem}; likely: {mistake}") if mistake else problem
     likely = [wrong for wrong in errors if errors[wrong] <= ALIKE * min(errors.values())]
     wrong = min(likely, key=lambda names: (len(names), errors[names]))
@@ -70,18 +61,14 @@ def checked_frames(
     there = {"base": np.linalg.inv(found.base), "target": found.targets[0]}
     parts = " and ".join("[instrument]" if name == "base" else f"[{name}]" for name in wrong)
     where = " and ".join(_gap(stated[name], there[name]) for name in wrong)
-    raise WrongKnowledge(
-        f"the description's {parts} {where}; try: omit it, so that it is estimated"
-    )
+    raise Mistaken(f"the description's {parts} {where}; try: omit it, so that it is estimated")
 
 
 def mistake_in(arm: Arm, observations: Observations, frames: Frames | None = None) -> str | None:
     """A mistake without which the nominal arm explains rows far better, in words.
 
-    None if there is none, and of balls in sockets or several targets.
-
-    Args:
-        frames: that explain the rows as they are, if there are any.
+    None if there is none, and of balls in sockets or several targets. Frames are those that explain
+    the rows as they are, if there are any.
     """
     measured = observations.measured
     if measured is None or observations.targets.any():
@@ -94,24 +81,14 @@ def mistake_in(arm: Arm, observations: Observations, frames: Frames | None = Non
     return None
 
 
-def _of_rotations(arm: Arm, observations: Observations) -> str | None:
-    """That only the rotations are wrong, in words; None otherwise."""
-    if observations.kinds == 1:
-        return None
-    with suppress(NoInitialEstimate):
-        initial_frames(arm, replace(observations, measured=observations.positions))
-        return "rotations of another frame or in another notation: positions alone fit"
-    return None
-
-
 def frames_of(arm: Arm, data: DataSet) -> Frames:
     """The same of a data set; of several cameras, each sight is enough by itself.
 
-    Raises WrongKnowledge and NoInitialEstimate, which name the sight.
+    Raises Mistaken and NoInitialEstimate, which name the sight.
     """
     observations = replace(data.observations, optics=None)
     if data.sights is None or len(data.sights) == 1:
-        return checked_frames(arm, observations, data.known.instrument, data.known.target)
+        return checked_frames(arm, observations, data.known)
     parts = []
     for number, name in enumerate(data.sight_names):
         rows = observations[observations.targets == number]
@@ -124,25 +101,21 @@ def frames_of(arm: Arm, data: DataSet) -> Frames:
         rows = observations[observations.targets == number]
         off = median_error(frames, arm.forward(rows.joints), rows)
         if off > FARTHEST:
-            raise WrongKnowledge(
+            raise Mistaken(
                 f"{name} is {1e3 * off:.0f} mm from its place by the other pictures; expected: one"
                 " place for each name; try: another name"
             )
-    return frames
+    return data.known.stated_in(frames)
 
 
 def check_distances(arm: Arm, data: DataSet, frames: Frames) -> None:
-    """Raise WrongKnowledge if sockets are not about as far apart as the nominal arm has them.
-
-    Args:
-        frames: an initial estimate of them.
-    """
+    """Raise Mistaken if sockets are not about as far apart as estimated by the nominal arm."""
     observations, names = data.observations, data.sockets
     tool = arm.forward(observations.joints)
     for one, other, length, _ in observations.distances:
         nominal = np.linalg.norm(frames.sockets[one] - frames.sockets[other])
         if abs(length - nominal) > STRETCHED * nominal + median_error(frames, tool, observations):
-            raise WrongKnowledge(
+            raise Mistaken(
                 f"the description's distance between {names[one]} and {names[other]}"
                 f" is {1e3 * length:.5g} mm; in the URDF they are {1e3 * nominal:.5g} mm apart;"
                 f" expected: at most {100 * STRETCHED:.0f} percent off"

@@ -17,12 +17,7 @@ from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.linearisation import LEVER, displacements
 from recalib.identification.model.observations import Observations
-from recalib.laboratory.plausibility.steps import (
-    Step,
-    rare_steps_of,
-    steps_of,
-    steps_of_rotations,
-)
+from recalib.laboratory.plausibility.steps import Step, rare_steps_of, steps_of, steps_of_rotations
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
 
@@ -34,20 +29,8 @@ ENOUGH = 40  # rows to try mistakes on
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: less is not reported
 
 
-class WrongNominal(RecalibError):
-    """Nominal positions that differ from the nominal arm's.
-
-    Args:
-        gap: m, the largest difference.
-        mistake: the likely one, in words; None if none explains it.
-    """
-
-    def __init__(self, gap: float, mistake: str | None):
-        unlikely = "no single mistake of zero, sign, order or unit explains it: is it another arm?"
-        super().__init__(
-            f"nominal positions are up to {1e3 * gap:.1f} mm from where the URDF's kinematics put"
-            f" the tool; {f'likely: {mistake}' if mistake else unlikely}"
-        )
+class Mistaken(RecalibError):
+    """A table, or its description, that contradicts itself or the nominal arm."""
 
 
 def check_nominal(
@@ -67,7 +50,7 @@ def check_nominal(
         base: (4, 4) m, the arm's base in the frame of the positions, if known.
         target: (4, 4) m in the tool link's frame, if known.
 
-    Raises WrongNominal: they differ by something else.
+    Raises Mistaken: they differ by something else.
     """
     known = np.eye(4) if base is None else base
     place = np.eye(4) if target is None else target
@@ -83,8 +66,15 @@ def check_nominal(
     if remaining.max() <= ALIKE:
         point = frames.targets[0, :3, 3] - place[:3, 3]
         words = _words(frames.base @ np.linalg.inv(known), point)
-        raise WrongNominal(gaps.max(), f"{words}, missing in the description")
-    raise WrongNominal(gaps.max(), likely_mistake(arm, coordinates, nominal))
+        reason = f"likely: {words}, missing in the description"
+    elif mistake := likely_mistake(arm, coordinates, nominal):
+        reason = f"likely: {mistake}"
+    else:
+        reason = "no single mistake of zero, sign, order or unit explains it: is it another arm?"
+    raise Mistaken(
+        f"nominal positions are up to {1e3 * gaps.max():.1f} mm from where the URDF's kinematics"
+        f" put the tool; {reason}"
+    )
 
 
 def likely_mistake(

@@ -24,29 +24,26 @@ CONTRADICTED = 2.0  # times the error at random: more in both others is a contra
 MOST = 6  # rows that are listed
 
 
-def doubts(result: Results) -> Iterator[str]:
+def doubts(result: Results) -> list[str]:
     """Warnings, the gravest first."""
     ends = [words for one, words in result.directions if not one.lasting]
+    gain = None if result.mistake else result.wrong_gain
+    poses = result.arm.forward(result.data.observations.joints)
     lines = render(
         "doubts.txt.j2",
         result=result,
         faults=[fault_in_words(fault, result.data, result.frames) for fault in result.faults],
-        gain=result.wrong_gain
-        and not result.mistake
-        and gain_in_words(result.wrong_gain, result.arm),
+        gain=gain and gain_in_words(gain, result.arm),
         outvoted=[*_outvoted(result)],
         worn=_worn(result),
-        axes=turned_axes(result.arm.forward(result.data.observations.joints))
-        if result.unseen
-        else (),
+        axes=turned_axes(poses) if result.unseen else (),
         open_here=sorted(ends, key=lambda words: not any(end in words for end in ENDS)),
         resized=[*_resized(result)],
         contradicted=_contradicted(result),
         most=MOST,
         named=NAMED,
     )
-    for line in lines.splitlines():
-        yield f"Careful: {line}."
+    return [f"Careful: {line}." for line in lines.splitlines()]
 
 
 def fault_in_words(fault: Fault, data: DataSet, frames: Frames) -> str:

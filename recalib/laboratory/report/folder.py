@@ -1,18 +1,21 @@
 """The files of a calibration."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
+from recalib.identification.hand_eye import Sights, calibrate_hand_eye
+from recalib.identification.hand_eye import held_out as without_fold
+from recalib.identification.held_out import HeldOut
+from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, WAYS
 from recalib.laboratory.correction import NAME, Correction
-from recalib.laboratory.places import Place
-from recalib.laboratory.report.hand_eye import hand_eye
-from recalib.laboratory.report.summary import DOING, errors_table, summary, verdict
+from recalib.laboratory.places import Place, hand_eye_places
+from recalib.laboratory.report.summary import DOING, errors_table, pixel_error, summary, verdict
+from recalib.laboratory.report.templates import render
 from recalib.laboratory.results import Results
 from recalib.laboratory.tables.table import table_text
 from recalib.laboratory.urdf.universal_robots import kinematics_yaml
@@ -120,3 +123,43 @@ def _rows(result: Results) -> Iterator[dict[str, Any]]:
             "weight": f"{weight:.3g}",
             "outlier": "yes" if row + 1 in result.doubted else "no",
         }
+
+
+def hand_eye(result: Results) -> str:
+    """A TOML with all frames, held-out errors, and the same with the arm taken as right."""
+    validation = result.validation
+    held_out = {way: validation.held_out[way][validation.chosen] for way in WAYS}
+    parts = ("", result.places, held_out), ("arm_as_right.", *_arm_as_right(result, held_out))
+    values = []
+    for prefix, places, found in parts:
+        means = {}
+        for way, errors in found.items():
+            judged = validation.judged(way)
+            off = float(errors[judged].errors[:, 0].mean())
+            means[way] = off, pixel_error(errors, judged)
+        values.append((prefix, places, means))
+    return render("hand_eye.toml.j2", parts=values)
+
+
+def _arm_as_right(
+    result: Results, held_out: Mapping[str, HeldOut]
+) -> tuple[list[Place], dict[str, HeldOut]]:
+    """The places of cameras and boards by the nominal arm, and errors in the same folds.
+
+    The first sight of a camera or a board determines its place.
+    """
+    data, arm = result.data, result.arm
+    rows, links = data.observations, (arm.base, arm.tool)
+    assert rows.measured is not None and rows.optics is not None
+    flange, places = arm.forward(rows.joints), dict[str, Place]()
+    residuals = {way: np.zeros((len(rows), 6)) for way in held_out}
+    for sight, pair in enumerate(result.geometry.frames.sights):
+        own = np.flatnonzero(rows.targets == sight)
+        found = calibrate_hand_eye(Sights(flange, rows.measured, False, rows.optics)[own])
+        for way, part in residuals.items():
+            part[own] = without_fold(found, held_out[way].folds[own])
+        names = data.instruments[pair[0]], data.target_names[pair[1]]
+        for place in hand_eye_places(found, names, links):
+            places.setdefault(place.name, place)
+    errors = {way: HeldOut(residuals[way], held_out[way].folds, rows.optics) for way in held_out}
+    return [*places.values()], errors

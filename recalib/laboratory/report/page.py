@@ -18,6 +18,7 @@ WIDTH = 9.6  # inches
 COLUMNS = 3
 LONGEST = 0.12  # of the arm's reach: so long is the largest error drawn
 LEAST = 1e-4  # mm or deg: no instrument measures less
+LISTED = 15  # parameters, the most certain first
 STYLE: dict[Any, Any] = {
     "axes.grid": True,
     "axes.spines.right": False,
@@ -130,11 +131,7 @@ def svg_of(figure: Figure) -> str:
     return text.getvalue()[text.getvalue().index("<svg") :]
 
 
-LISTED = 15  # parameters, the most certain first
-
-
 def page_of(result: Results) -> bytes:
-    """The page of a calibration."""
     parameters = result.identified
     decided = [parameter for parameter in parameters if parameter["decided_by"] == "data"]
     decided.sort(key=lambda parameter: -abs(parameter["value"]) / parameter["deviation"])

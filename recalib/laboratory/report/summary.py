@@ -16,7 +16,6 @@ from recalib.identification.validation import (
     WAYS,
 )
 from recalib.laboratory.report.doubts import doubts
-from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.templates import UNITS, render
 from recalib.laboratory.results import Results
 from recalib.spelling import counted
@@ -66,36 +65,30 @@ def errors_table(result: Results) -> list[ErrorRow]:
 
 def verdict(result: Results) -> str:
     """The headline of a calibration, then its warnings."""
-    return " ".join([_worth(result), *doubts(result)])
-
-
-def _worth(result: Results) -> str:
     chosen, left = result.validation.chosen, np.sum(~result.validation.counted)
     without = f", {left} of {len(result.data)} rows left out as outliers" if left else ""
     compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
     before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
-    if not result.worthwhile:
-        return (
-            "The correction does not reduce the error: on held-out postures,"
-            f" the nominal arm's mean error of {before:.3g} mm does not fall{without}."
-        )
-    return (
+    headline = (
         f"On postures away from those measured, the mean error falls from {before:.3g} mm to"
         f" {after:.3g} mm, 95 % within {1e3 * result.validation.radius:.3g} mm; near them, to"
         f" {at_random:.3g} mm{without}."
     )
+    if not result.worthwhile:
+        headline = (
+            "The correction does not reduce the error: on held-out postures,"
+            f" the nominal arm's mean error of {before:.3g} mm does not fall{without}."
+        )
+    return " ".join([headline, *doubts(result)])
 
 
 def subject(result: Results) -> str:
-    """Which arm it is."""
-    joints = f"an arm of {len(result.arm.joints)} joints"
-    return (
-        f"{result.urdf.origin if result.urdf else joints}, {result.arm.tool} in {result.arm.base}"
-    )
+    arm = result.arm
+    name = result.urdf.origin if result.urdf else f"an arm of {len(arm.joints)} joints"
+    return f"{name}, {arm.tool} in {arm.base}"
 
 
 def summary(result: Results) -> str:
-    """A page of text."""
     texts = {"subject": subject(result), "verdict": verdict(result)}
     return render("summary.txt.j2", **texts, errors=errors_table(result), **_facts(result))
 
@@ -129,12 +122,18 @@ def _facts(result: Results) -> dict[str, object]:
 
 def _cameras(result: Results) -> Iterator[tuple[str, float, float]]:
     """Mean errors of corners [px] in held-out pictures, corrected and by the nominal arm."""
-    for number, name in enumerate(result.data.sight_names):
-        error, nominal = (
-            pixel_error(result, BLOCKWISE, kind, number)
-            for kind in (result.validation.chosen, NOTHING)
-        )
+    sights, held_out = result.data.observations.targets, result.validation.held_out[BLOCKWISE]
+    for sight, name in enumerate(result.data.sight_names):
+        own = result.counted[sights[result.counted] == sight]
+        kinds = result.validation.chosen, NOTHING
+        error, nominal = (pixel_error(held_out[kind], own) for kind in kinds)
         yield name, error, nominal
+
+
+def pixel_error(held_out: HeldOut, rows: np.ndarray) -> float:
+    """The mean over rows by cameras of how far corners are off [px]."""
+    assert held_out.optics is not None
+    return float(held_out.optics.moved(held_out.residuals)[rows].mean())
 
 
 def _joints(result: Results) -> Iterator[dict[str, object]]:

@@ -4,7 +4,6 @@ Reading, checking and `recalib calibrate --help` follow from here. A further col
 `MEASURED`; what uses it asks `Measurements.columns` for it by its name.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER, TIME, Quantity
@@ -15,23 +14,14 @@ TEXT = Quantity("a text", {})
 
 @dataclass(frozen=True)
 class Columns:
-    """Columns that are given together, or not at all.
+    """Columns that are given together, or not at all."""
 
-    Attributes:
-        name: of the array that they become.
-        headings: in a table.
-        quantity: what they hold.
-        meaning: for people.
-        units: that we write.
-        needed: whether a table must have them.
-    """
-
-    name: str
+    name: str  # of the array that they become
     headings: tuple[str, ...]
-    quantity: Quantity
-    meaning: str = ""
-    unit: str = ""
-    needed: bool = False
+    quantity: Quantity  # what they hold
+    meaning: str = ""  # for people
+    unit: str = ""  # that we write
+    needed: bool = False  # whether a table must have them
 
     @property
     def written(self) -> list[str]:
@@ -39,18 +29,14 @@ class Columns:
         return [f"{heading} [{self.unit}]" if self.unit else heading for heading in self.headings]
 
 
-def _axes(pattern: str) -> tuple[str, ...]:
-    return tuple(pattern.format(axis) for axis in "xyz")
-
-
 POSITIONS = Columns(
-    "positions", _axes("{}"), LENGTH, "position of the target in the instrument's frame", "mm"
+    "positions", ("x", "y", "z"), LENGTH, "position of the target in the instrument's frame", "mm"
 )
 QUATERNIONS = Columns(
     "quaternions", ("qx", "qy", "qz", "qw"), NUMBER, "its rotation, if measured: as a quaternion,"
 )
 ROTATION_VECTORS = Columns(
-    "rotation_vectors", _axes("r{}"), ANGLE, "or as a rotation vector,", "deg"
+    "rotation_vectors", ("rx", "ry", "rz"), ANGLE, "or as a rotation vector,", "deg"
 )
 ROLL_PITCH_YAW = Columns(
     "roll_pitch_yaw",
@@ -64,7 +50,8 @@ TARGETS = Columns("targets", ("target",), NAME, "name of the target, if the tool
 SOCKETS = Columns(
     "sockets", ("socket",), NAME, "instead of a position: name of the socket that held the ball"
 )
-PICTURES = Columns("pictures", ("picture",), TEXT, "file name; recalib observe needs it")
+PICTURE = "picture"
+PICTURES = Columns("pictures", (PICTURE,), TEXT, "file name; recalib observe needs it")
 TIMES = Columns(
     "times",
     ("time",),
@@ -74,28 +61,31 @@ TIMES = Columns(
 )
 NOMINAL = Columns(
     "nominal",
-    _axes("{}_nominal"),
+    ("x_nominal", "y_nominal", "z_nominal"),
     LENGTH,
     "position according to the controller, which is compared with the URDF before the fit",
     "mm",
 )
 ERRORS = Columns(
-    "errors", _axes("{}_error"), LENGTH, "measured minus nominal position, instead of x, y, z", "mm"
+    "errors",
+    ("x_error", "y_error", "z_error"),
+    LENGTH,
+    "measured minus nominal position, instead of x, y, z",
+    "mm",
 )
 FAKE_POSITIONS = Columns(
-    "fake_positions", _axes("{}_fake"), LENGTH, "commands of recalib correct, ignored", "mm"
+    "fake_positions",
+    ("x_fake", "y_fake", "z_fake"),
+    LENGTH,
+    "commands of recalib correct, ignored",
+    "mm",
 )
-FAKE_ROTATIONS = Columns("fake_rotations", _axes("r{}_fake"), ANGLE, "as above", "deg")
+FAKE_ROTATIONS = Columns(
+    "fake_rotations", ("rx_fake", "ry_fake", "rz_fake"), ANGLE, "as above", "deg"
+)
 
 MEASURED = (
     *(POSITIONS, *ROTATIONS, TARGETS, SOCKETS, PICTURES, TIMES, NOMINAL, ERRORS),
     *(FAKE_POSITIONS, FAKE_ROTATIONS),
 )
 DESIRED = (POSITIONS, *ROTATIONS, TARGETS, PICTURES)
-
-
-def described() -> Iterator[tuple[str, str]]:
-    """Headings with their units, and meanings, for people who write a table."""
-    yield "JOINT [deg]", "each joint by its name in the URDF, as the controller reports it"
-    for columns in MEASURED:
-        yield ", ".join(columns.written), columns.meaning

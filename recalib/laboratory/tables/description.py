@@ -16,7 +16,6 @@ from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance", "wear"
 EXACT = 1e-6  # m, rad: how well a number without a deviation is known where others have one
-ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
 
 @dataclass(frozen=True)
@@ -60,76 +59,62 @@ def read_description(path: str | PathLike[str]) -> Description:
         for part in parts:
             if part not in PARTS:
                 raise InvalidSetting("part", part, listed(PARTS, "or"))
-        instrument, instrument_deviations = _pose("instrument", parts)
-        target, target_deviations = _pose("target", parts)
-        encoders, links = _wear(parts.get("wear", {}))
+        columns = parts.get("columns", {})
+        if not isinstance(columns, dict) or not all(isinstance(to, str) for to in columns.values()):
+            raise InvalidSetting("columns", columns, 'lines such as joint_1 = "elbow_joint [deg]"')
         return Description(
-            _columns(parts.get("columns", {})),
-            instrument,
-            target,
-            distances_of(parts.get("distance", [])),
-            instrument_deviations,
-            target_deviations,
-            encoders,
-            links,
+            columns,
+            distances=distances_of(parts.get("distance", [])),
+            **_pose("instrument", parts),
+            **_pose("target", parts),
+            **_wear(parts.get("wear", {})),
         )
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
 
 
-def _columns(given: Any) -> dict[str, str]:
-    if not isinstance(given, dict) or not all(isinstance(name, str) for name in given.values()):
-        raise InvalidSetting("columns", given, 'lines such as joint_1 = "elbow_joint [deg]"')
-    return given
-
-
-def _pose(part: str, parts: Mapping[str, Any]) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """A pose (4, 4) [m], and its deviations (6,) [m, rad]; None if not stated."""
+def _pose(part: str, parts: Mapping[str, Any]) -> dict[str, Any]:
+    """The pose of an instrument or target and its deviations, as far as they are stated."""
     if part not in parts:
-        return None, None
+        return {}
     given = parts[part]
-    if not isinstance(given, dict) or not given or given.keys() - ORIGIN.keys():
-        raise InvalidSetting(part, given, f"{' and '.join(ORIGIN)}")
-    numbers = ORIGIN | given
+    if not isinstance(given, dict) or not given or given.keys() - {"position", "roll_pitch_yaw"}:
+        raise InvalidSetting(part, given, "position and roll_pitch_yaw")
+    vectors = []
+    for name, kind in (("position", LENGTH), ("roll_pitch_yaw", ANGLE)):
+        key, numbers = f"{part}.{name}", given.get(name, [kind.write(0.0)] * 3)
+        if not isinstance(numbers, list) or len(numbers) != 3:
+            raise InvalidSetting(key, numbers, 'a list of three quantities such as "3 mm +- 1 mm"')
+        vectors.append(np.array([within(key, number, kind) for number in numbers]).T)
+    (place, along), (turns, about) = vectors
     pose = np.eye(4)
-    pose[:3, 3], along = _vector(f"{part}.position", numbers["position"], LENGTH)
-    turns, about = _vector(f"{part}.roll_pitch_yaw", numbers["roll_pitch_yaw"], ANGLE)
-    pose[:3, :3] = Rotation.from_euler("xyz", turns).as_matrix()
+    pose[:3, :3], pose[:3, 3] = Rotation.from_euler("xyz", turns).as_matrix(), place
     deviations = np.concatenate([along, about])
-    return pose, np.maximum(deviations, EXACT) if deviations.any() else None
-
-
-def _vector(key: str, given: Any, kind: Quantity) -> np.ndarray:
-    """Values and deviations (2, 3) of quantities such as "3 mm" or "3 mm +- 1 mm"."""
-    if not isinstance(given, list) or len(given) != 3:
-        raise InvalidSetting(key, given, 'a list of three quantities such as "3 mm +- 1 mm"')
-    return np.array([within(key, quantity, kind) for quantity in given]).T
+    stated = {f"{part}_deviations": np.maximum(deviations, EXACT)} if deviations.any() else {}
+    return {part: pose} | stated
 
 
 def within(key: str, given: Any, kind: Quantity, default: float = 0.0) -> tuple[float, float]:
     """A value and its deviation. Raises InvalidSetting."""
     value, *deviation = given.split("+-", 1) if isinstance(given, str) else [given]
-    return _read(key, value, kind), _positive(key, deviation[0], kind) if deviation else default
+    number = _read(key, value, kind)
+    return number, _read(key, deviation[0], kind, positive=True) if deviation else default
 
 
-def _wear(given: Any) -> tuple[float, tuple[float, float] | None]:
-    """By how much encoders [rad] and links [m, rad] may be off; 0 and None if it is not stated."""
+def _wear(given: Any) -> dict[str, Any]:
+    """By how much encoders and links may be off, as far as it is stated."""
     if not isinstance(given, dict) or given.keys() - {"encoders", "links"}:
         raise InvalidSetting("wear", given, 'encoders = "1 deg" and links = ["2 mm", "0.1 deg"]')
     encoders, links = given.get("encoders"), given.get("links")
     if links is not None and (not isinstance(links, list) or len(links) != 2):
         raise InvalidSetting("wear.links", links, 'a length and an angle: ["2 mm", "0.1 deg"]')
-    pairs = zip(links or (), (LENGTH, ANGLE), strict=False)
-    off = [_positive("wear.links", text, kind) for text, kind in pairs]
-    angle = 0.0 if encoders is None else _positive("wear.encoders", encoders, ANGLE)
-    return angle, (off[0], off[1]) if off else None
-
-
-def _positive(key: str, text: Any, kind: Quantity) -> float:
-    number = _read(key, text, kind)
-    if number <= 0:
-        raise InvalidSetting(key, text, "more than zero")
-    return number
+    stated: dict[str, Any] = {}
+    if links is not None:
+        pairs = zip(links, (LENGTH, ANGLE), strict=True)
+        stated["links"] = tuple(_read("wear.links", text, kind, True) for text, kind in pairs)
+    if encoders is not None:
+        stated["encoders"] = _read("wear.encoders", encoders, ANGLE, True)
+    return stated
 
 
 def distances_of(given: Any) -> dict[tuple[str, str], float]:
@@ -137,7 +122,15 @@ def distances_of(given: Any) -> dict[tuple[str, str], float]:
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
     distances: dict[tuple[str, str], float] = {}
-    for pair, length in map(_distance, given):
+    for part in given:
+        if not isinstance(part, dict) or part.keys() != {"sockets", "length"}:
+            raise InvalidSetting("distance", part, "sockets and length")
+        between = part["sockets"]
+        names = sorted(map(str, between)) if isinstance(between, list) else []
+        if len(names) != 2 or names[0] == names[1]:
+            raise InvalidSetting("distance.sockets", between, "the names of two sockets")
+        pair = names[0], names[1]
+        length = _read("distance.length", part["length"], LENGTH, True)
         if pair in distances:
             found = f"{1e3 * distances[pair]:g} mm and {1e3 * length:g} mm"
             raise InvalidSetting(f"distance between {' and '.join(pair)}", found, "one length")
@@ -145,19 +138,10 @@ def distances_of(given: Any) -> dict[tuple[str, str], float]:
     return distances
 
 
-def _distance(given: Any) -> tuple[tuple[str, str], float]:
-    if not isinstance(given, dict) or given.keys() != {"sockets", "length"}:
-        raise InvalidSetting("distance", given, "sockets and length")
-    between = given["sockets"]
-    pair = [str(name) for name in between] if isinstance(between, list) else []
-    if len(pair) != 2 or pair[0] == pair[1]:
-        raise InvalidSetting("distance.sockets", between, "the names of two sockets")
-    one, other = sorted(pair)
-    return (one, other), _positive("distance.length", given["length"], LENGTH)
-
-
-def _read(key: str, text: Any, kind: Quantity) -> float:
+def _read(key: str, text: Any, kind: Quantity, positive: bool = False) -> float:
     number = kind.value_of(key, text)
     if abs(number) > kind.farthest:
         raise InvalidSetting(key, text, f"up to {kind.write(kind.farthest)}")
+    if positive and number <= 0:
+        raise InvalidSetting(key, text, "more than zero")
     return number

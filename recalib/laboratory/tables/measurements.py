@@ -49,21 +49,14 @@ TURNS = {
 
 @dataclass(frozen=True)
 class Measurements:
-    """Rows of a table, in SI units.
+    """Rows of a table, in SI units. See `Coupling` for joints that follow others."""
 
-    Attributes:
-        path: of the table, for messages.
-        joints: (n, columns) rad, or m where a joint slides, that the controller reported; None in a
-            table without joints. See `Coupling` for joints that follow others.
-        measured: poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame; None
-            without either.
-        columns: all other columns of the table, by their names in `tables.columns`.
-    """
-
-    path: Path
+    path: Path  # of the table, for messages
+    # (n, columns) rad, or m where a joint slides, that the controller reported, if the table has it
     joints: np.ndarray | None
+    # poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame, if it has any
     measured: np.ndarray | None
-    columns: Mapping[str, np.ndarray]
+    columns: Mapping[str, np.ndarray]  # all others, by their names in `tables.columns`
 
     def __len__(self) -> int:
         rows = self.measured if self.joints is None else self.joints
@@ -86,14 +79,17 @@ def read_measurements(
     measured; rows pasted twice.
     """
     table = read_table(path, description.columns if description else None)
-    rows = check_measured(_read(table, arm, MEASURED))
+    rows = _read(table, arm, MEASURED)
+    check_measured(rows)
     check_copies(table)
     return rows
 
 
 def read_joints(path: str | PathLike[str], arm: Arm) -> Measurements:
     """Joint coordinates and pictures in the table at `path`. Raises as `read_measurements`."""
-    return _check_rows(_read(read_table(path), arm, MEASURED))
+    rows = _read(read_table(path), arm, MEASURED)
+    _check_rows(rows)
+    return rows
 
 
 def read_desired(path: str | PathLike[str], arm: Arm, target: bool = False) -> Measurements:
@@ -112,7 +108,8 @@ def read_desired(path: str | PathLike[str], arm: Arm, target: bool = False) -> M
         raise InvalidFile(path, "its commands are corrected already; expected: desired poses")
     rows = _read(table, arm, DESIRED, joints_needed=False)
     if rows.joints is None and rows.measured is None:
-        raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {_columns(arm)}")
+        valid = listed(joint_headings(arm), "and")
+        raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {valid}")
     return rows
 
 
@@ -141,9 +138,7 @@ def joint_headings(arm: Arm, angle: str = "deg", length: str = "mm") -> list[str
 def postures_table(arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool = False) -> bytes:
     """Joint coordinates (n, columns) and poses (n, 4, 4) in the columns that we read.
 
-    Args:
-        fake: the poses are commands, in columns that `read_desired` refuses: they would be
-            corrected twice.
+    Fake poses are commands, in columns that `read_desired` refuses: it would correct them twice.
     """
     scales = [1e3 if slides else 180 / np.pi for slides in arm.coupling.slides]
     texts = [[f"{number:.9f}" for number in row] for row in joints * scales]
@@ -160,8 +155,8 @@ def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]
         yield dict(zip(headings, (f"{number:.9f}" for number in row), strict=True))
 
 
-def check_measured(rows: Measurements) -> Measurements:
-    """The same rows, if an arm can be calibrated by them. Raises InvalidFile."""
+def check_measured(rows: Measurements) -> None:
+    """Raise InvalidFile unless an arm can be calibrated by the rows."""
     sockets = SOCKETS.name in rows.columns
     if rows.measured is None and not sockets:
         raise InvalidFile(rows.path, "nothing was measured in it; expected: x, y, z or socket")
@@ -169,10 +164,9 @@ def check_measured(rows: Measurements) -> Measurements:
         raise InvalidFile(rows.path, "it has both positions and sockets; expected: one of them")
     _check_rows(rows)
     _check_stuck(rows)
-    return rows
 
 
-def _check_rows(rows: Measurements) -> Measurements:
+def _check_rows(rows: Measurements) -> None:
     assert rows.joints is not None
     if (times := rows.columns.get(TIMES.name)) is not None:
         if (early := np.diff(times) < 0).any():
@@ -186,7 +180,6 @@ def _check_rows(rows: Measurements) -> Measurements:
         raise InvalidFile(rows.path, found)
     if (np.ptp(rows.joints, axis=0) < STILL).all():
         raise InvalidFile(rows.path, "no joint moves in it; expected: rows of different postures")
-    return rows
 
 
 def _check_stuck(rows: Measurements) -> None:
@@ -234,8 +227,8 @@ def _read(
     arrays, joints = table.read(others, names, note), None
     missing = [name for name in names if name not in table]
     if missing and (joints_needed or len(missing) < len(names)):
-        reason = f"the column of joint {missing[0]!r} is missing"
-        raise InvalidFile(table.path, f"{reason}; {arm.tool} is moved by {_columns(arm)}")
+        reason = f"the column of joint {missing[0]!r} is missing; {arm.tool} is moved by"
+        raise InvalidFile(table.path, f"{reason} {listed(joint_headings(arm), 'and')}")
     if not missing:
         kinds = (LENGTH if slides else ANGLE for slides in arm.coupling.slides)
         pairs = zip(names, kinds, strict=True)
@@ -273,7 +266,3 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
     poses[:, :3, :3] = TURNS[kind](given[kind.name]).as_matrix()
     poses[:, :3, 3] = positions
     return poses
-
-
-def _columns(arm: Arm) -> str:
-    return listed(joint_headings(arm), "and")

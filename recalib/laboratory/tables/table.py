@@ -8,12 +8,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from itertools import islice
-from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
 from recalib.errors import InvalidFile
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, TIME, Quantity
 from recalib.files.storage import read_file
 from recalib.laboratory.tables.columns import NAME, TEXT, Columns
@@ -27,19 +27,12 @@ MOST, MOST_ROWS = 32_000_000, 10_000  # bytes; rows, which a computer calibrates
 
 @dataclass(frozen=True)
 class Table:
-    """The cells of a table, by column. Rows are counted from 1, without the header.
+    """The cells of a table, by column. Rows are counted from 1, without the header."""
 
-    Attributes:
-        path: of the file, for messages.
-        units: of each column, empty where the header has none.
-        cells: of each column, as many as there are rows.
-        headings: of each column in the file, where a description gives it another one.
-    """
-
-    path: Path
-    units: Mapping[str, str]
-    cells: Mapping[str, list[str]]
-    headings: Mapping[str, str]
+    path: Path  # of the file, for messages
+    units: Mapping[str, str]  # of each column, empty where the header has none
+    cells: Mapping[str, list[str]]  # of each column, as many as there are rows
+    headings: Mapping[str, str]  # in the file, where a description gives a column another one
 
     def __len__(self) -> int:
         return len(next(iter(self.cells.values())))
@@ -52,13 +45,9 @@ class Table:
     ) -> dict[str, np.ndarray]:
         """The arrays of all columns by `Columns.name`: (n,) of a single column, else (n, k).
 
-        Args:
-            layout: all columns that the table may have.
-            others: further columns that it may have.
-            note: why an angle may be unknown, for the message.
-
-        Raises InvalidFile: unknown or missing columns, another unit, a cell that holds something
-        else.
+        The table may have the columns of the layout and others. The note in messages is why an
+        angle may be unknown. Raises InvalidFile: unknown or missing columns, another unit, a cell
+        that holds something else.
         """
         valid = [*others, *(heading for columns in layout for heading in columns.headings)]
         for column in self.cells:
@@ -140,24 +129,19 @@ class Table:
 
 
 def read_table(
-    path: str | PathLike[str], columns: Mapping[str, str] | None = None, most: int = MOST_ROWS
+    path: AnyPath, columns: Mapping[str, str] | None = None, most: int = MOST_ROWS
 ) -> Table:
     """The table at `path`; see `table_of`. Raises InvalidFile."""
     return table_of(read_file(path, MOST), path, columns, most)
 
 
 def table_of(
-    content: bytes,
-    path: str | PathLike[str],
-    columns: Mapping[str, str] | None = None,
-    most: int = MOST_ROWS,
+    content: bytes, path: AnyPath, columns: Mapping[str, str] | None = None, most: int = MOST_ROWS
 ) -> Table:
     """The table in a file's content: UTF-8, commas between cells, a header, rows below it.
 
     Args:
-        path: of the file, for messages.
         columns: by a heading of the file the heading that it should have, or "ignored".
-        most: rows.
 
     Raises InvalidFile: not such a table, or a heading in `columns` that it lacks.
     """

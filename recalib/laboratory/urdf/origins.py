@@ -8,7 +8,6 @@ directly, no origin is left to move it by: the corrected tool is a new link.
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from xml.etree import ElementTree
 from xml.parsers import expat
 
 import numpy as np
@@ -26,16 +25,20 @@ _TAG = re.compile(rb"</?(?P<prefix>(?:[^\s:>\"']+:)?)(?:[^>\"']|\"[^\"]*\"|'[^']
 
 
 def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]:
-    """The URDF of the nominal arm with corrected geometry, and the link that is the tool there.
-
-    Args:
-        source: the file from which the nominal arm was read.
+    """The nominal arm's URDF with corrected geometry, and the link that is the tool there.
 
     Raises UnsuitableRobot: joints inside entities, which have no place in the file.
     """
-    nominal = calibration.model.nominal
-    origins, tool = corrected_origins(source, calibration)
-    if tool is None:
+    nominal, parameters = calibration.model.nominal, calibration.estimate.parameters
+    arm, offsets = calibration.model.own_arm(parameters), offset_poses(calibration)
+    moving, (fixed, last) = _segments(source, nominal)
+    origins = {}
+    for joint, (before, moved) in enumerate(moving, start=1):
+        placement = arm.model.jointPlacements[joint].homogeneous
+        origins[moved] = np.linalg.inv(before) @ placement @ offsets[joint - 1]
+    tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
+    if last is not None:
+        origins[last] = np.linalg.inv(fixed) @ tool
         return with_origins(source, origins), nominal.tool
     name = nominal.tool + CORRECTED
     added = (
@@ -46,30 +49,10 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
     return with_origins(source, origins, added), name
 
 
-def corrected_origins(
-    source: bytes, calibration: Calibration
-) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
-    """New origins (4, 4) by joint, and of a new link for the tool, if it needs one."""
-    nominal, parameters = calibration.model.nominal, calibration.estimate.parameters
-    arm, offsets = calibration.model.own_arm(parameters), offset_poses(calibration)
-    moving, (fixed, name) = _segments(source, nominal)
-    origins = {}
-    for joint, (before, moved) in enumerate(moving, start=1):
-        placement = arm.model.jointPlacements[joint].homogeneous
-        origins[moved] = np.linalg.inv(before) @ placement @ offsets[joint - 1]
-    tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
-    if name is None:
-        return origins, tool
-    return origins | {name: np.linalg.inv(fixed) @ tool}, None
-
-
 def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = "") -> bytes:
-    """A URDF with other origins (4, 4) [m] for the named joints; nothing else changes.
+    """A URDF with other origins (4, 4) [m] for the named joints, and with XML added at its end.
 
-    Args:
-        added: XML to insert at its end.
-
-    Raises UnsuitableRobot, as `corrected_urdf`.
+    Nothing else changes. Raises UnsuitableRobot, as `corrected_urdf`.
     """
     code = encoding(source)
     text = source.decode(code).encode("utf-8")
@@ -140,26 +123,19 @@ def _segments(
             fixed = np.eye(4)
             last = fixed, None
         else:
-            last = fixed, name
-            fixed = fixed @ _pose(joint.find("origin"))
+            last, origin = (fixed, name), joint.find("origin")
+            given = {} if origin is None else origin.attrib
+            texts = (given.get(key, "0 0 0") for key in ("xyz", "rpy"))
+            place, angles = (np.array(text.split(), dtype=float) for text in texts)
+            fixed = fixed @ pin.SE3(pin.rpy.rpyToMatrix(angles), place).homogeneous
     return moving, last
-
-
-def _pose(origin: ElementTree.Element | None) -> np.ndarray:
-    given = {} if origin is None else origin.attrib
-    place, angles = (
-        np.array(given.get(name, "0 0 0").split(), dtype=float) for name in ("xyz", "rpy")
-    )
-    return pin.SE3(pin.rpy.rpyToMatrix(angles), place).homogeneous
 
 
 def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int, str]:
     """First and last byte of each joint's origin, or of where it would be inserted.
 
-    Args:
-        text: in UTF-8, whatever encoding it declares.
-
-    Returns also where the root ends, and the prefix of a namespace before the names of tags.
+    Also where the root ends, and the prefix of a namespace before the names of tags. The text is in
+    UTF-8, whatever encoding it declares.
     """
     spans: dict[str, tuple[int, int]] = {}
     path: list[tuple[str, int]] = []  # names, and where tags end that end their element, else 0

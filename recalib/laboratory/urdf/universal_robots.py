@@ -75,18 +75,13 @@ def _pattern(arm: Arm) -> list[np.ndarray] | None:
         _pose(y=two[1] - end[1], roll=-np.pi / 2),
     ]
     pattern = [*accumulate([turned, *lengths], np.matmul)]
-    alike = all(
-        _on_one_axis(frame, axis, dh)
-        for frame, axis, dh in zip(_frames(arm.model), arm.axes, pattern[1:], strict=True)
-    )
-    return pattern if alike else None
-
-
-def _on_one_axis(frame: np.ndarray, axis: np.ndarray, other: np.ndarray) -> bool:
-    """Whether a joint of this frame and axis turns about the z axis of the other frame."""
-    direction, between = frame[:3, :3] @ axis, other[:3, 3] - frame[:3, 3]
-    apart = np.abs(np.cross(direction, between)).max()
-    return bool(max(np.abs(direction - other[:3, 2]).max(), apart) < ALIKE)
+    for frame, axis, other in zip(_frames(arm.model), arm.axes, pattern[1:], strict=True):
+        # the joint turns about the z axis of the other frame
+        direction, between = frame[:3, :3] @ axis, other[:3, 3] - frame[:3, 3]
+        apart = np.abs(np.cross(direction, between)).max()
+        if not max(np.abs(direction - other[:3, 2]).max(), apart) < ALIKE:
+            return None
+    return pattern
 
 
 def _pose(x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0) -> np.ndarray:

@@ -19,7 +19,7 @@ from recalib import (
     arm_of_table,
     read_description,
 )
-from recalib.laboratory.plausibility.mistakes import WrongNominal
+from recalib.laboratory.plausibility.mistakes import Mistaken
 from replication.config import Source
 from replication.scenarios import nominal_robot
 from replication.training import (
@@ -181,7 +181,7 @@ def test_tables_of_too_little_or_in_another_frame_are_refused(
         read_of(ur5.arm, tmp_path / "half.csv", Description(instrument=np.eye(4)))
     path = tmp_path / "table.csv"
     table.assign(x_t=-table["x_t"], y_t=-table["y_t"]).to_csv(path, index=False)
-    with pytest.raises(WrongNominal, match=r"likely: the base turned by 180\.0 deg"):
+    with pytest.raises(Mistaken, match=r"likely: the base turned by 180\.0 deg"):
         read_of(ur5.arm, path, description)
 
 
