@@ -32,13 +32,15 @@ class DamagedArm:
     Attributes:
         arm: the damaged kinematics.
         offsets: (joint,) rad by which each joint stands beyond the angle that its encoder reports.
-        deflections: functions of joint angles (n, joint) [rad] and of the torques (n, joint) [N m]
-            that hold the arm against gravity there: what each adds to these angles.
+        deflections: of joints by their numbers, each a function of the joint's angles (n,) [rad]
+            and of the torques (n,) [N m] that hold it against gravity: what it adds to the angles.
     """
 
     arm: Arm
     offsets: np.ndarray
-    deflections: list[Callable[[np.ndarray, np.ndarray], np.ndarray]] = field(default_factory=list)
+    deflections: list[tuple[int, Callable[[np.ndarray, np.ndarray], np.ndarray]]] = field(
+        default_factory=list
+    )
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].
@@ -73,9 +75,11 @@ class DamagedArm:
     def _deflected(self, angles: np.ndarray) -> np.ndarray:
         if not self.deflections:
             return angles
-        shifted = angles + self.offsets
+        shifted, deflected = angles + self.offsets, angles.copy()
         torques = self.arm.gravity_torque(shifted)
-        return sum((deflection(shifted, torques) for deflection in self.deflections), start=angles)
+        for joint, deflection in self.deflections:
+            deflected[:, joint] += deflection(shifted[:, joint], torques[:, joint])
+        return deflected
 
 
 @dataclass(frozen=True)

@@ -59,6 +59,7 @@ def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str =
     Raises as `check_new`, and InvalidFile: a file that cannot be written or read back.
     """
     folder = not isinstance(content, bytes)
+    parts = {"": content} if isinstance(content, bytes) else content
     check_new(path, folder)
     home, target = _home(path), Path(os.path.abspath(path))
     try:
@@ -67,12 +68,10 @@ def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str =
             prefix=f"{HIDDEN}{os.getpid()}-", suffix=IN_THE_MAKING, dir=home
         ) as temporary:
             made = Path(temporary, "made")
-            if isinstance(content, bytes):
-                _write(made, content, path, suffix)
-            else:
+            if folder:
                 made.mkdir()
-                for name, part in content.items():
-                    _write(made / name, part, Path(path, name), Path(name).suffix)
+            for name, part in parts.items():
+                _write(made / name, part, Path(path, name), suffix or Path(name).suffix)
             target.parent.mkdir(parents=True, exist_ok=True)
             check_new(path, folder)
             os.rename(made, target)

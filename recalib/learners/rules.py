@@ -12,13 +12,7 @@ import numpy as np
 from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, UnknownName, check_kind
 from recalib.learners.nets import CENTRES
-from recalib.learners.schedules import (
-    DIMENSIONS,
-    EXPONENTIAL,
-    RATES,
-    SPREADS,
-    equal_visits,
-)
+from recalib.learners.schedules import DIMENSIONS, EXPONENTIAL, RATES, SPREADS
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
@@ -103,7 +97,7 @@ class Rules:
     @property
     def width_power(self) -> float:
         """The power of widths that is linear in time; see `recalib.learners.schedules`."""
-        return equal_visits(self.dimensions, self.spread) if self.equal_visits else EXPONENTIAL
+        return float(SPREADS[self.spread] - self.dimensions) if self.equal_visits else EXPONENTIAL
 
     @property
     def rate_power(self) -> float:

@@ -82,17 +82,16 @@ class Controller:
         self._knots = np.concatenate([grid * part for part in BOXES]), np.concatenate(solved)
 
     @cached_property
-    def nominal(self) -> kernels.ControllerArrays:
-        """What compiled loops need to answer commands: the arm, its workspace, where they start.
+    def nominal(self) -> tuple[Any, ...]:
+        """All of a controller that `kernels.targets` needs: the arm, its workspace, and so on.
 
-        The start is a polynomial through the knots, which is made when it is first needed.
+        Newton's method starts from a polynomial through the knots, made when it is first needed.
         """
         coordinates, angles = self._knots
         q, r = np.linalg.qr(monomials(coordinates, DEGREE))
         start = *factors(6, DEGREE), np.linalg.solve(r, q.T @ angles)
         limits = self.robot.lower, self.robot.upper
-        given: tuple[Any, ...] = *self._chain, *self.robot.workspace.region, *start, *limits
-        return kernels.ControllerArrays(*given)
+        return *self._chain, *self.robot.workspace.region, *start, *limits
 
     def solve(self, poses: np.ndarray) -> Targets:
         """Joint targets of the commanded poses (..., 4, 4), never raising."""
