@@ -43,32 +43,26 @@ class DamagedArm:
     )
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m].
+        """Poses (n, 4, 4) of the tool in the base frame [m] at angles that a controller assumes.
 
-        Args:
-            angles: (n, joint) rad that the controller assumes.
-
-        Raises InvalidSetting: another shape.
+        These are (n, joint) rad. Raises InvalidSetting: another shape.
         """
         joints = array_of("angles", angles, ("n", len(self.offsets)))
         return self.chain.forward(self._deflected(joints)[None])[0]
 
     @cached_property
     def chain(self) -> Chain:
-        """Its kinematics, at angles that encoders report if nothing gives way.
+        """Once all damages are done, its kinematics at angles that encoders report.
 
-        Once all damages are done.
+        Nothing gives way in it.
         """
         return Chain.of(self.arm, self.offsets)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
-        """True joint angles (n, joint) [rad].
+        """True joint angles (n, joint) [rad] at those that a controller assumes.
 
         Every deflection starts from the shifted angles, so that the order of the damages does not
         matter.
-
-        Args:
-            angles: (n, joint) rad that the controller assumes.
         """
         return self._deflected(angles) + self.offsets
 

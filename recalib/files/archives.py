@@ -38,8 +38,7 @@ def write_archive(path: str | PathLike[str], header: Mapping[str, Any], groups: 
 def archive_of(header: Mapping[str, Any], groups: Arrays) -> bytes:
     """The archive of arrays, named by their groups as in position/theta.
 
-    Args:
-        header: of JSON's types, with the `format` and its `version`.
+    The header is of JSON's types, with the `format` and its `version`.
     """
     arrays = flat(groups)
     sealed = {**header, "sha256": _digest(header, arrays)}

@@ -20,10 +20,7 @@ def encoding(source: bytes) -> str:
 
 
 def read_xml(source: bytes, path: Path) -> ElementTree.Element:
-    """The root of XML.
-
-    Args:
-        path: of the file, for messages.
+    """The root of XML; its path is for messages.
 
     Raises InvalidFile: not XML, with line and column; or in another encoding than it declares.
     """

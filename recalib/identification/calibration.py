@@ -44,12 +44,8 @@ class Calibration:
     def forward(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
-        If a frame was unknown, the arm's own base or tool is nominal.
-
-        Args:
-            joints: (n, joints) rad, m that the controller assumes.
-
-        Raises InvalidSetting: another shape, NaN.
+        The controller assumes joints (n, joints) [rad, m]. If a frame was unknown, the arm's own
+        base or tool is nominal. Raises InvalidSetting: another shape, NaN.
         """
         angles = array_of("joints", joints, ("n", self._arm.model.nv))
         return self._moved(self._arm.forward(self._standing(angles)), angles)
@@ -65,10 +61,7 @@ class Calibration:
     def predict(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
         """Predicted measurements: poses (n, 4, 4) of targets in the instrument's frame [m].
 
-        Args:
-            joints: (n, joints) rad, m that the controller assumes.
-            targets: (n,) the numbers of the sights; default: the first.
-
+        Joints are as for `forward`, targets (n,) the numbers of the sights; default: the first.
         Raises InvalidSetting: another shape, NaN.
         """
         angles = array_of("joints", joints, ("n", self._arm.model.nv))
@@ -276,8 +269,7 @@ def with_pattern(
 ) -> Calibration:
     """With a process of its residuals, if there are enough of them and they are not noise.
 
-    Args:
-        hyperparameters: of the process, which take long to find; default: the most probable.
+    Its hyperparameters are the most probable, unless given: to find them takes long.
     """
     estimate = calibration.estimate
     noise, good = estimate.noise, np.flatnonzero(estimate.weights > DOUBTFUL)

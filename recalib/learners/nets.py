@@ -19,11 +19,7 @@ CENTRES = {
 
 
 def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
-    """Centres (cells, d) of cells in [-1, 1]^d, so many along each coordinate: shape (d,).
-
-    Args:
-        centres: which, of `CENTRES`.
-    """
+    """Which of `CENTRES` (cells, d) in [-1, 1]^d, so many along each coordinate: shape (d,)."""
     return np.array(list(product(*map(CENTRES[centres], shape))))
 
 

@@ -42,10 +42,8 @@ _ONE = threading.Lock()  # for one block at a time
 def find_urdf(urdf: str | PathLike[str]) -> Path:
     """The file of a URDF. One of the user's own comes before one of a package.
 
-    Args:
-        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the
-            name of a description in robot_descriptions.py, such as panda_description, if that is
-            installed.
+    It is a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the name of
+    a description in robot_descriptions.py, such as panda_description, if that is installed.
 
     Raises UnknownName, or InvalidFile if it is a path and not a name.
     """
@@ -108,10 +106,7 @@ class UrdfFile:
 
 
 def parsed(source: bytes, path: Path) -> Element:
-    """The root of a URDF.
-
-    Args:
-        path: of the file, for messages.
+    """The root of a URDF; its path is for messages.
 
     Raises UnsuitableRobot: not XML, in another encoding than it declares, or of too many joints.
     """

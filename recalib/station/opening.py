@@ -19,9 +19,8 @@ _CLASS = re.compile(r"(?P<home>[^\s:]+):(?P<name>\w+)")
 def open_station(text: str) -> Station:
     """The station that a text means.
 
-    Args:
-        text: `FILE.py:NAME` or `MODULE:NAME`, where NAME is called without arguments; else the
-            command line of a program.
+    It is `FILE.py:NAME` or `MODULE:NAME`, where NAME is called without arguments; else the command
+    line of a program.
 
     Raises StationFailed: there is none, or it cannot be made.
     """

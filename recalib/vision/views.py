@@ -38,10 +38,7 @@ def board_pose(
     """The pose (4, 4) [m] of the board in the camera: the camera's z axis goes into the picture.
 
     It is that at which the corners are nearest to where they should be; without numbers by a lens
-    that cannot see them.
-
-    Args:
-        start: a pose nearby, for speed.
+    that cannot see them. To start from a pose nearby saves time.
     """
     points, pixels = board.points[view.numbers], view.pixels
     pose = _first_pose(points, lens, pixels) if start is None else start

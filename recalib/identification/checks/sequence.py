@@ -57,13 +57,10 @@ class Fault:
 
 
 def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
-    """What the rows of each series show by their order, if they were measured in that order.
+    """What rows, by which geometry was identified, show by their order in each series.
 
     A lag bends the arm that is identified, and so leaves more than a lag. If it is the plainest
     fault, all others are looked for without it.
-
-    Args:
-        geometry: identified from the same rows.
     """
     found = _faults(geometry, observations, 1) or _faults(geometry, observations, 2)
     if len(found) < 2 or found[0].kind != LAG:
