@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.arrays import array_of
 from recalib.damaged.imperfections import Imperfection, Joint, Link
-from recalib.errors import InvalidSetting, UnknownName, check_kind
+from recalib.errors import InvalidSetting, check_kind, check_name
 from recalib.files.bounded import Amount, Length, SignedTurn
 from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
@@ -129,8 +129,7 @@ class LinkShortening(Damage, words=("shorten",)):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.along not in get_args(Along):
-            raise UnknownName("direction in which a link is shortened", self.along, get_args(Along))
+        check_name("direction in which a link is shortened", self.along, get_args(Along))
 
     def apply(self, arm: Arm, damaged: DamagedArm) -> None:
         end = end_of(arm, self.link, damaged).translation
@@ -160,16 +159,14 @@ def end_of(arm: Arm, link: str, damaged: DamagedArm) -> pin.SE3:
 
     Raises UnknownName.
     """
-    if link not in arm.links:
-        raise UnknownName("link", link, arm.links)
+    check_name("link", link, arm.links)
     return link_end(damaged.arm.model, damaged.arm.tool, arm.links[link])
 
 
 def joint_index(arm: Arm, joint: str) -> int:
     """Which joint of the arm has this name. Raises UnknownName: none, or one that slides."""
     turning = [name for name, slides in zip(arm.joints, arm.slides, strict=True) if not slides]
-    if joint not in turning:
-        raise UnknownName("turning joint", joint, turning)
+    check_name("turning joint", joint, turning)
     return arm.joints.index(joint)
 
 

@@ -147,14 +147,9 @@ class Calibration:
         """By the pattern of the first target, as the instrument would see it."""
         if self.pattern is None:
             return poses
-        base, target, from_base, from_target = self._first_frames
-        return from_base @ self._shifted(base @ poses @ target, joints) @ from_target
-
-    @cached_property
-    def _first_frames(self) -> tuple[np.ndarray, ...]:
-        """Of the first instrument and target (4, 4) [m], and their inverses: seldom inverted."""
         base, target = self.frames.base, self.frames.targets[0]
-        return base, target, np.linalg.inv(base), np.linalg.inv(target)
+        seen = self._shifted(base @ poses @ target, joints)
+        return np.linalg.inv(base) @ seen @ np.linalg.inv(target)
 
     def _shifted(
         self, poses: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None

@@ -262,8 +262,7 @@ def _speeds(joints: np.ndarray, times: np.ndarray) -> np.ndarray:
 
 def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:
     """What moves of their instruments (n,) by 1 m and 1 rad do to poses (n, 6, 6)."""
-    columns = np.zeros((len(poses), 6, 6))
-    columns[:] = np.eye(6)
+    columns = np.tile(np.eye(6), (len(poses), 1, 1))
     for number in np.unique(instruments):
         rows = instruments == number
         places = poses[rows, :3, 3]

@@ -212,19 +212,18 @@ class ErrorModel:
     def found(self, parameters: np.ndarray) -> Frames:
         """The frames at both ends as the parameters have them."""
         base, *_ = twists = [pin.exp6(pin.Motion(twist)) for twist in self.twists(parameters)]
-        found = replace(self.frames, sockets=self.sockets(parameters))
-        if found.base_unknown:
-            found = replace(found, base=(base * self._base).homogeneous)
-        if len(found.further):
-            moved = zip(twists[-len(found.further) :], found.further, strict=True)
-            further = [(twist * pin.SE3(pose)).homogeneous for twist, pose in moved]
-            found = replace(found, further=np.array(further))
-        if found.targets_unknown:
-            at_targets = slice(self._joints, self._joints + len(found.targets))
+        frames, found = self.frames, {"sockets": self.sockets(parameters)}
+        if frames.base_unknown:
+            found["base"] = (base * self._base).homogeneous
+        if len(frames.further):
+            moved = zip(twists[-len(frames.further) :], frames.further, strict=True)
+            found["further"] = np.array([(by * pin.SE3(pose)).homogeneous for by, pose in moved])
+        if frames.targets_unknown:
+            at_targets = slice(self._joints, self._joints + len(frames.targets))
             ends = zip(twists[at_targets], self._placements[at_targets], strict=True)
             targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
-            found = replace(found, targets=np.array([pose.homogeneous for pose in targets]))
-        return found
+            found["targets"] = np.array([pose.homogeneous for pose in targets])
+        return replace(frames, **found)
 
     def terms(self, joints: np.ndarray) -> np.ndarray:
         """The joint terms (n, term, joints) at joint coordinates (n, joints) [rad, m]."""
