@@ -14,8 +14,7 @@ from pathlib import Path
 import yaml
 
 from recalib.errors import InvalidFile, InvalidSetting
-from recalib.files.storage import IN_THE_MAKING
-from recalib.files.xml import read_xml
+from recalib.files.storage import IN_THE_MAKING, read_xml
 
 AnyPath = str | os.PathLike[str]
 HIDDEN = ".recalib-"  # how the folder begins in which outputs are made; a process's number follows
@@ -71,7 +70,7 @@ def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str =
             if folder:
                 made.mkdir()
             for name, part in parts.items():
-                _write(made / name, part, Path(path, name), suffix or Path(name).suffix)
+                _write(made / name, part, Path(path, name), Path(name).suffix or suffix)
             target.parent.mkdir(parents=True, exist_ok=True)
             check_new(path, folder)
             os.rename(made, target)

@@ -15,9 +15,8 @@ from recalib.errors import RecalibError, check_kind
 from recalib.identification.closed_forms import solutions, turns_by_poses
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import HELD, Frames
-from recalib.identification.model.input_checks import check_rows
 from recalib.identification.model.linearisation import LEVER, Linearisation, displacements
-from recalib.identification.model.observations import Observations
+from recalib.identification.model.observations import Observations, check_rows
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 from recalib.spelling import counted

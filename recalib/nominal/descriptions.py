@@ -16,8 +16,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.files.storage import path_of, read_file
-from recalib.files.xml import read_xml
+from recalib.files.storage import path_of, read_file, read_xml
 
 DATA = "example-robot-data"
 FETCHED = "robot_descriptions"  # of robot_descriptions.py, which fetches and keeps them
