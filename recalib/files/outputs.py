@@ -49,8 +49,7 @@ def is_taken(path: AnyPath, folder: bool = False) -> bool:
 def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str = "") -> None:
     """Write a new file, or a new folder of files by their names, with missing parents.
 
-    Args:
-        suffix: the format of a single file, whatever it is called.
+    A single file has the format of the suffix, whatever it is called.
 
     Everything is read back by a parser of its format before it appears. It appears at once and
     replaces nothing. What a killed process left is removed by the next one that writes there.

@@ -15,11 +15,8 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     """The information gained by a measurement at each of several postures, (n,) in nats.
 
     It is the logarithm of the factor by which the volume of the parameters' uncertainty would
-    shrink: what D-optimal designs maximise.
-
-    Args:
-        calibration: so far.
-        joints: (n, joints) rad, m, each for one measurement of the first target.
+    shrink: what D-optimal designs maximise. Joints (n, joints) [rad, m] are each for one
+    measurement of the first target.
 
     Raises InvalidSetting: another shape, something else than a calibration.
     """
@@ -48,7 +45,7 @@ def most_informative(
     """The postures of the largest gains, each given those before it.
 
     Args:
-        calibration, joints: as above.
+        calibration, joints: as of `information_gains`.
         count: how many, if there are so many; none twice.
         optics: what pictures would be worth there; None where no cameras measure.
 

@@ -208,9 +208,7 @@ def _derivatives(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Of pixels (2 c, 6) by a displacement of the measured pose, and by optics (2 c, o).
 
-    Args:
-        points, slopes: as in `projected`.
-        pose: of the board in the camera.
+    Points and slopes are as in `projected`; the pose is that of the board in the camera.
     """
     by_place = slopes[:, 3:6].reshape(-1, 2, 3)
     if in_hand:  # displacements of the camera, along the axes of the board

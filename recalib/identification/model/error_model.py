@@ -242,12 +242,10 @@ class ErrorModel:
     def predict(
         self, parameters: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
     ) -> np.ndarray:
-        """Poses (n, 4, 4) of targets in the frame of the instrument [m].
+        """Poses (n, 4, 4) of targets in the frame of the instrument [m], by parameters (P,).
 
-        Args:
-            parameters: (P,) of the model.
-            joints: (n, joints) rad, m that the controller assumes.
-            targets: (n,) the numbers of the sights; default: the first.
+        The controller assumes joints (n, joints) [rad, m]. Targets (n,) are the numbers of the
+        sights; default: the first.
         """
         standing = self.standing(parameters, joints)
         poses = np.empty((len(joints), 4, 4))
@@ -265,10 +263,8 @@ class ErrorModel:
         """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) by the parameters.
 
         A Jacobian maps a change of the parameters to the target's translation [m] and turn [rad]
-        along the axes of the instrument.
-
-        Args:
-            terms: `terms` of the joints. They depend on no parameter: one evaluation serves all.
+        along the axes of the instrument. The `terms` of the joints depend on no parameter: one
+        evaluation serves all.
         """
         terms = self.terms(joints) if terms is None else terms
         standing = self.standing(parameters, joints, terms)
