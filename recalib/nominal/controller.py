@@ -99,7 +99,8 @@ class Controller:
 
     def targets(self, commands: np.ndarray) -> Targets:
         """Joint targets of the commands, coordinates (..., 6), never raising."""
-        found = kernels.targets(*self.nominal, commands.reshape(-1, 6))
+        given: tuple[Any, ...] = *self.nominal, commands.reshape(-1, 6)
+        found = kernels.targets(*given)
         axes = commands.shape[:-1]
         return Targets(*(part.reshape(*axes, *part.shape[1:]) for part in found))
 

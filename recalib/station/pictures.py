@@ -29,13 +29,10 @@ WRONG = 5.0  # px by which corners are off: so far, by no lens that is near the 
 class BoardInPictures:
     """A board in the pictures of a camera, each of which is searched once.
 
-    Args:
+    Attributes:
         board: which is in them.
         lens: of the camera, near the true one.
         in_hand: whether the camera is on the hand.
-
-    Attributes:
-        board, lens, in_hand: as given.
         tool_radius: m that a board around the tool link's origin takes, however it is turned.
     """
 

@@ -20,6 +20,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property, reduce
 from operator import or_
+from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -212,7 +213,7 @@ class ErrorModel:
     def found(self, parameters: np.ndarray) -> Frames:
         """The frames at both ends as the parameters have them."""
         base, *_ = twists = [pin.exp6(pin.Motion(twist)) for twist in self.twists(parameters)]
-        frames, found = self.frames, {"sockets": self.sockets(parameters)}
+        frames, found = self.frames, dict[str, Any](sockets=self.sockets(parameters))
         if frames.base_unknown:
             found["base"] = (base * self._base).homogeneous
         if len(frames.further):
