@@ -292,10 +292,13 @@ def information(found: HandEye) -> np.ndarray:
     return slopes.swapaxes(1, 2) @ linear.precisions @ slopes
 
 
-def held_out(found: HandEye) -> np.ndarray:
-    """Residuals (n, 6) [m, rad] of each pose by a calibration without its fold, of 30 in turn."""
+def held_out(found: HandEye, folds: np.ndarray | None = None) -> np.ndarray:
+    """Residuals (n, 6) [m, rad] of each pose by a calibration without its fold.
+
+    Folds (n,) are the numbers of the poses' parts; by default 30, in turn.
+    """
     residuals = np.zeros((len(found.sights), 6))
-    folds = np.arange(len(residuals)) % FOLDS
+    folds = np.arange(len(residuals)) % FOLDS if folds is None else folds
     for fold in np.unique(folds):
         rows, out = np.flatnonzero(folds != fold), np.flatnonzero(folds == fold)
         without = replace(found, sights=found.sights[rows], weights=found.weights[rows])

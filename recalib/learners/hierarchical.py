@@ -139,7 +139,6 @@ class HierarchicalLearner:
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
-        """An untrained learner for a number of runs, from its `settings`."""
         rules: dict[str, Any] = {
             name: tuple(value) if isinstance(value, list) else value
             for name, value in settings["rules"].items()
@@ -164,7 +163,6 @@ class HierarchicalLearner:
         ]
 
     def restore(self, states: Sequence[State]) -> None:
-        """Restore a `state`."""
         self._settle()
         for name, theta, jacobian in self._held():
             theta[:] = [state[name]["theta"] for state in states]

@@ -111,19 +111,15 @@ class ProgramStation:
         self.limits: tuple[np.ndarray, np.ndarray] = described["lower"], described["upper"]
 
     def move(self, angles: np.ndarray, speed: float) -> None:
-        """See `Station.move`."""
         self._ask("move", angles=angles.tolist(), speed=speed)
 
     def angles(self) -> np.ndarray:
-        """See `Station.angles`."""
         return cast(np.ndarray, self._ask("angles", "angles")["angles"])  # checked by the caller
 
     def measure(self) -> Mapping[str, float | str] | None:
-        """See `Station.measure`."""
         return cast(Mapping[str, float | str] | None, self._ask("measure", "row")["row"])
 
     def stop(self) -> None:
-        """See `Station.stop`."""
         with suppress(OSError, ValueError):  # it has ended, or its input is closed
             self._send("stop")
 

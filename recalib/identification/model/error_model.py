@@ -71,8 +71,7 @@ class ErrorModel:
         frames: at both ends of the arm; default: its own base and tool.
 
     Attributes:
-        nominal: the arm.
-        frames: as given.
+        nominal, frames: the arm, and what is at its ends.
         names: of the joint terms.
         deviations: (P,) standard deviations of the parameters under the prior, whose mean is zero.
         free: (P,) whether a parameter is of unknown frames or of optics: it need not be zero.
@@ -286,9 +285,8 @@ class ErrorModel:
             jacobians[rows, :, 6:links] = by_link[..., 6:links]
             jacobians[rows, :, 6 * start : 6 * start + 6] = by_link[..., :6]
             jacobians[rows, :, 6 * end : 6 * end + 6] = by_link[..., links:]
-            jacobians[rows, :, self._geometry :] = (
-                by_joint[:, :, None] * terms[rows][:, None]
-            ).reshape(len(by_joint), 6, -1)
+            by_term = by_joint[:, :, None] * terms[rows][:, None]
+            jacobians[rows, :, self._geometry :] = by_term.reshape(len(by_joint), 6, -1)
         return poses, jacobians
 
 
