@@ -70,7 +70,7 @@ class DamagedArm:
     def _deflected(self, angles: np.ndarray) -> np.ndarray:
         if not self.deflections:
             return angles
-        shifted, deflected = angles + self.offsets, angles.copy()
+        shifted, deflected = angles + self.offsets, angles.astype(float)
         torques = self.arm.gravity_torque(shifted)
         for joint, deflection in self.deflections:
             deflected[:, joint] += deflection(shifted[:, joint], torques[:, joint])

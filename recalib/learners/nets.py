@@ -19,7 +19,7 @@ CENTRES = {
 
 
 def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
-    """Which of `CENTRES` (cells, d) in [-1, 1]^d, so many along each coordinate: shape (d,)."""
+    """Centres (cells, d), one of `CENTRES`, in [-1, 1]^d: so many along each coordinate, (d,)."""
     return np.array(list(product(*map(CENTRES[centres], shape))))
 
 

@@ -83,7 +83,7 @@ class Controller:
 
     @cached_property
     def nominal(self) -> tuple[Any, ...]:
-        """All of a controller that `kernels.targets` needs: the arm, its workspace, and so on.
+        """What compiled loops need to answer commands: the first arguments of `kernels.targets`.
 
         Newton's method starts from a polynomial through the knots, made when it is first needed.
         """
