@@ -83,13 +83,10 @@ class Calibration:
     def position_covariances(
         self, joints: np.ndarray, shifted: bool, targets: np.ndarray | None = None
     ) -> np.ndarray:
-        """Covariances (n, 3, 3) [m^2] of predicted positions of targets.
+        """Covariances (n, 3, 3) [m^2] of predicted positions; joints and targets as of `predict`.
 
-        Args:
-            joints: (n, joints) rad, m.
-            shifted: whether one shift and turn of instrument and target, common to all rows, is
-                removed: the range of a camera is only as accurate as its board and lens.
-            targets: (n,) the numbers of the sights; default: the first.
+        If shifted, one shift and turn of instrument and target, common to all rows, is removed: the
+        range of a camera is only as accurate as its board and lens.
         """
         model, estimate = self.model, self.estimate
         _, jacobians = model.linearise(estimate.parameters, joints, targets)

@@ -42,14 +42,10 @@ def surprises(calibration: Calibration, observations: Observations) -> np.ndarra
 def most_informative(
     calibration: Calibration, joints: np.ndarray, count: int, optics: Optics | None = None
 ) -> Iterator[tuple[int, np.ndarray]]:
-    """The postures of the largest gains, each given those before it.
+    """So many postures of the largest gains, none twice, each given those before it.
 
-    Args:
-        calibration, joints: as of `information_gains`.
-        count: how many, if there are so many; none twice.
-        optics: what pictures would be worth there; None where no cameras measure.
-
-    Yields each one's number, and the covariance (P, P) of the parameters once it is measured.
+    Optics say what pictures would be worth there; None where no cameras measure. Yields each one's
+    number, and the covariance (P, P) of the parameters once it is measured.
     """
     rows, covariance = _rows(calibration, joints, optics), calibration.estimate.covariance
     unused = np.ones(len(rows), dtype=bool)

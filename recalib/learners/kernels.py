@@ -137,8 +137,7 @@ def respond(
 def corrections(jacobian: np.ndarray, desired: np.ndarray, achieved: np.ndarray) -> np.ndarray:
     """A_kl (u - u') (run, 6): the second movement of an iteration, and the increment of (6).
 
-    Args:
-        achieved: (run, 1, 6) the pose u' of the first.
+    The pose u' (run, 1, 6) is what the first one achieved.
     """
     found = np.zeros(desired.shape)
     for run in range(len(desired)):

@@ -30,10 +30,7 @@ def expected_learning(
 ) -> float | np.ndarray:
     """L of (10): what a cell far from the border learns in one iteration, on average.
 
-    Args:
-        width: of the Gaussians.
-        dimensions: of the space in which the winners lie.
-        volume: of the workspace there.
+    By the width of the Gaussians, and the dimensions and the volume of the space of winners.
     """
     return np.power(width, dimensions) * (2 * np.pi) ** (dimensions / 2) / volume
 

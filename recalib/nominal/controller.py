@@ -109,11 +109,9 @@ class Controller:
     ) -> np.ndarray:
         """The commands (run, move, 6) that yield the required joint angles.
 
-        Of a redundant arm there are many; those are meant which are found from its own answer.
-
-        Args:
-            commands: (run, move, 6) nearby.
-            needed: from joint angles (run, move, joint) [rad] to those nearby that are needed.
+        Of a redundant arm there are many; those are meant which are found from its own answer to
+        commands nearby. Of joint angles (run, move, joint) [rad], `needed` gives those nearby that
+        are required.
         """
         workspace, arm = self.robot.workspace, self.robot.arm
         for _ in range(ROUNDS if len(arm.joints) > 6 else 1):

@@ -41,12 +41,10 @@ class Postures:
 
 
 def find_postures(joints: np.ndarray, slides: np.ndarray, noise: float) -> Postures:
-    """The postures in joint coordinates (n, joints) [rad, m].
+    """The postures in joint coordinates (n, joints) [rad, m], of joints that slide or turn.
 
-    Args:
-        slides: (joints,) whether a joint slides.
-        noise: m along an axis. What moves the tool by less than three times as much is the same
-            posture, where a turn of one rad counts as `LEVER`. So is a joint's next full turn.
+    What moves the tool by less than three times the noise [m] along an axis is the same posture,
+    where a turn of one rad counts as `LEVER`. So is a joint's next full turn.
     """
     radius, moved = ALIKE * noise, np.ptp(joints, axis=0) * np.where(slides, 1.0, LEVER)
     turns = joints[:, ~slides]

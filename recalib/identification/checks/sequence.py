@@ -80,8 +80,7 @@ def _faults(geometry: Calibration, observations: Observations, power: int) -> li
     """The same, all by one linearisation, with weights that fall by a power of the distance."""
     residuals, arm, weights, model = slopes_of(geometry, observations, power)
     estimate = geometry.estimate
-    slides = model.nominal.slides
-    postures = find_postures(observations.joints, slides, estimate.noise[0])
+    postures = find_postures(observations.joints, model.nominal.slides, estimate.noise[0])
     alike = len(observations) / len(postures)
     candidates = [
         one._replace(columns=one.columns * weights[one.rows, :, None])
