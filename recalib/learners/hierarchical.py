@@ -60,10 +60,8 @@ class HierarchicalLearner:
         if rules.initial is not None and not rules.theta_increments:
             theta = np.random.default_rng(rules.initial).uniform(-1, 1, theta.shape)
         jacobian = np.broadcast_to(np.eye(6).ravel(), (*shape, 36))
-        # In C order, which `np.stack` does not choose for copies of one Jacobian: `_settle` takes
-        # twice as long in any other.
-        theta, jacobian = (
-            np.ascontiguousarray(np.stack([np.stack(np.split(start, maps, axis=-1))] * self._runs))
+        theta, jacobian = (  # repeated, they are in C order: in any other, `_settle` is slower
+            np.repeat(np.stack(np.split(start, maps, axis=-1))[None], self._runs, axis=0)
             for start in (theta, jacobian)
         )
         waiting = self._runs, maps, WAITING
