@@ -13,13 +13,8 @@ from matplotlib.figure import Figure
 from scipy.optimize import root
 
 from recalib.learners.nets import Nets, regular_grid
-from recalib.learners.schedules import (
-    DIMENSIONS,
-    EXPONENTIAL,
-    equal_visits,
-    expected_learning,
-    fall,
-)
+from recalib.learners.rules import IMPROVED
+from recalib.learners.schedules import DIMENSIONS, EXPONENTIAL, expected_learning, fall
 from replication.plots.palette import BOTH, FAILS, INK, NEUTRAL, STYLES, styles_of
 from replication.plots.style import STYLE, WIDTH, legend_below, save
 
@@ -225,7 +220,7 @@ START, END = 1.5, 0.3  # widths, in workspace coordinates
 ITERATIONS = 200
 STEP = 0.1  # of the width, in which visits are counted
 VOLUME = 2.0**DIMENSIONS
-POWERS = {"ritter": EXPONENTIAL, "improved": equal_visits()}
+POWERS = {"ritter": EXPONENTIAL, "improved": IMPROVED.width_power}
 NAMES = {"ritter": "Ritter: exponential", "improved": "improved: equal visits"}
 
 

@@ -1,11 +1,11 @@
 """The public names and their modules; `recalib/__init__.py` imports a name when it is asked for."""
 
-from .damaged.bending import LinkBend as LinkBend
-from .damaged.bending import LinkTwist as LinkTwist
 from .damaged.damage import BaseShift as BaseShift
 from .damaged.damage import DamagedArm as DamagedArm
 from .damaged.damage import EncoderShift as EncoderShift
+from .damaged.damage import LinkBend as LinkBend
 from .damaged.damage import LinkShortening as LinkShortening
+from .damaged.damage import LinkTwist as LinkTwist
 from .damaged.damage import apply as apply
 from .damaged.disturbances import Disturbances as Disturbances
 from .damaged.disturbances import Noise as Noise
@@ -81,6 +81,6 @@ from .nominal.robots import load_robot as load_robot
 from .nominal.shapes import load_shapes as load_shapes
 from .station.interface import Station as Station
 from .station.interface import StationFailed as StationFailed
-from .station.program import ProgramStation as ProgramStation
+from .station.opening import ProgramStation as ProgramStation
 
 __version__: str

@@ -40,6 +40,12 @@ class InvalidSetting(RecalibError):
         super().__init__(f"{key} is {found}; expected: {valid}")
 
 
+def check_name(kind: str, name: str, valid: Iterable[str]) -> None:
+    """Raise UnknownName unless a name is among the valid ones."""
+    if name not in (names := [*valid]):
+        raise UnknownName(kind, name, names)
+
+
 def check_kind(name: str, given: object, *kinds: type) -> None:
     """Raise InvalidSetting unless an argument is an instance of one of these classes."""
     if not isinstance(given, kinds):

@@ -1,6 +1,7 @@
-"""Damages of a robot, alone or combined: moved as a whole, links shortened, encoders shifted.
+"""Damages of a robot's geometry, alone or combined; `recalib.damaged.nongeometric` has more.
 
-These are the damages of section 7; `recalib.damaged.nongeometric` has more.
+Those of section 7: it is moved as a whole, links are shortened, encoders shifted. And links that a
+collision bends or twists.
 """
 
 from collections.abc import Callable, Iterable
@@ -14,8 +15,8 @@ from scipy.spatial.transform import Rotation
 
 from recalib.arrays import array_of
 from recalib.damaged.imperfections import Imperfection, Joint, Link
-from recalib.errors import InvalidSetting, UnknownName, check_kind
-from recalib.files.bounded import Amount, Length, SignedTurn
+from recalib.errors import InvalidSetting, check_kind, check_name
+from recalib.files.bounded import Amount, Direction, Length, SignedTurn
 from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot, link_end
@@ -32,50 +33,48 @@ class DamagedArm:
     Attributes:
         arm: the damaged kinematics.
         offsets: (joint,) rad by which each joint stands beyond the angle that its encoder reports.
-        deflections: functions of joint angles (n, joint) [rad] and of the torques (n, joint) [N m]
-            that hold the arm against gravity there: what each adds to these angles.
+        deflections: of joints by their numbers, each a function of the joint's angles (n,) [rad]
+            and of the torques (n,) [N m] that hold it against gravity: what it adds to the angles.
     """
 
     arm: Arm
     offsets: np.ndarray
-    deflections: list[Callable[[np.ndarray, np.ndarray], np.ndarray]] = field(default_factory=list)
+    deflections: list[tuple[int, Callable[[np.ndarray, np.ndarray], np.ndarray]]] = field(
+        default_factory=list
+    )
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m].
+        """Poses (n, 4, 4) of the tool in the base frame [m] at angles that a controller assumes.
 
-        Args:
-            angles: (n, joint) rad that the controller assumes.
-
-        Raises InvalidSetting: another shape.
+        These are (n, joint) rad. Raises InvalidSetting: another shape.
         """
         joints = array_of("angles", angles, ("n", len(self.offsets)))
         return self.chain.forward(self._deflected(joints)[None])[0]
 
     @cached_property
     def chain(self) -> Chain:
-        """Its kinematics, at angles that encoders report if nothing gives way.
+        """Once all damages are done, its kinematics at angles that encoders report.
 
-        Once all damages are done.
+        Nothing gives way in it.
         """
         return Chain.of(self.arm, self.offsets)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
-        """True joint angles (n, joint) [rad].
+        """True joint angles (n, joint) [rad] at those that a controller assumes.
 
         Every deflection starts from the shifted angles, so that the order of the damages does not
         matter.
-
-        Args:
-            angles: (n, joint) rad that the controller assumes.
         """
         return self._deflected(angles) + self.offsets
 
     def _deflected(self, angles: np.ndarray) -> np.ndarray:
         if not self.deflections:
             return angles
-        shifted = angles + self.offsets
+        shifted, deflected = angles + self.offsets, angles.astype(float)
         torques = self.arm.gravity_torque(shifted)
-        return sum((deflection(shifted, torques) for deflection in self.deflections), start=angles)
+        for joint, deflection in self.deflections:
+            deflected[:, joint] += deflection(shifted[:, joint], torques[:, joint])
+        return deflected
 
 
 @dataclass(frozen=True)
@@ -131,8 +130,7 @@ class LinkShortening(Damage, words=("shorten",)):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.along not in get_args(Along):
-            raise UnknownName("direction in which a link is shortened", self.along, get_args(Along))
+        check_name("direction in which a link is shortened", self.along, get_args(Along))
 
     def apply(self, arm: Arm, damaged: DamagedArm) -> None:
         end = end_of(arm, self.link, damaged).translation
@@ -157,21 +155,64 @@ class EncoderShift(Damage, words=("encoder", "shift")):
         damaged.offsets[joint_index(arm, self.encoder)] += self.shift
 
 
+@dataclass(frozen=True)
+class LinkBend(Damage, words=("bend",)):
+    """A link bent in the middle of the straight line between its joints."""
+
+    link: Link
+    bend: SignedTurn
+    """Angle between the line's halves."""
+    towards: Direction = 0.0
+    """Where its outer half goes: the angle about the line from the axis that is most across it."""
+
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
+        end = end_of(arm, self.link, damaged)
+        line = _line(end.translation, self.link)
+        # rounded: of two axes that are equally far across, the first
+        across = np.eye(3)[np.abs(line).round(6).argmin()]
+        side = np.cross(line, across) / np.linalg.norm(np.cross(line, across))
+        axis = Rotation.from_rotvec(self.towards * line).apply(side)
+        turn = Rotation.from_rotvec(self.bend * axis).as_matrix()
+        half = end.translation / 2
+        end.translation = half + turn @ half
+        end.rotation = turn @ end.rotation
+
+
+@dataclass(frozen=True)
+class LinkTwist(Damage, words=("twist",)):
+    """A link twisted about the straight line between its joints."""
+
+    link: Link
+    twist: SignedTurn
+    """Angle by which its end is turned."""
+
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
+        end = end_of(arm, self.link, damaged)
+        line = _line(end.translation, self.link)
+        end.rotation = Rotation.from_rotvec(self.twist * line).as_matrix() @ end.rotation
+
+
+def _line(end: np.ndarray, link: str) -> np.ndarray:
+    """The direction (3,) of a link. Raises InvalidSetting: it has no length."""
+    length = np.linalg.norm(end)
+    if length < 1e-9:
+        raise InvalidSetting("link", link, "a link with a length")
+    return end / length
+
+
 def end_of(arm: Arm, link: str, damaged: DamagedArm) -> pin.SE3:
     """Where a link ends in the frame of the joint that moves it; changing it changes the arm.
 
     Raises UnknownName.
     """
-    if link not in arm.links:
-        raise UnknownName("link", link, arm.links)
+    check_name("link", link, arm.links)
     return link_end(damaged.arm.model, damaged.arm.tool, arm.links[link])
 
 
 def joint_index(arm: Arm, joint: str) -> int:
     """Which joint of the arm has this name. Raises UnknownName: none, or one that slides."""
     turning = [name for name, slides in zip(arm.joints, arm.slides, strict=True) if not slides]
-    if joint not in turning:
-        raise UnknownName("turning joint", joint, turning)
+    check_name("turning joint", joint, turning)
     return arm.joints.index(joint)
 
 

@@ -75,20 +75,14 @@ class Disturbances:
     ) -> np.ndarray:
         """By how much each joint misses its angle, (run, *shape) rad. It means nothing of slides.
 
-        Args:
-            generators: one for each run.
-            shape: how many moves and joints.
+        The shape is moves and joints; there is a generator for each run.
         """
         return self.repeatability.repeatability * np.stack(
             [generator.standard_normal(shape) for generator in generators]
         )
 
     def measure(self, generators: Sequence[np.random.Generator], poses: np.ndarray) -> np.ndarray:
-        """Measured poses (run, move, 4, 4).
-
-        Args:
-            generators: one for each run.
-        """
+        """Measured poses (run, move, 4, 4), by a generator for each run."""
         moves = poses.shape[1]
         # Every number is drawn, also where its size is zero: runs that differ in one size share
         # all other numbers.

@@ -5,7 +5,6 @@ another and with the damages of `recalib.damaged.damage` through its `apply`.
 """
 
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
@@ -26,12 +25,7 @@ class Deflection(Damage):
     joint: Joint
 
     def apply(self, arm: Arm, damaged: DamagedArm) -> None:
-        damaged.deflections.append(partial(self._deflections, joint_index(arm, self.joint)))
-
-    def _deflections(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
-        deflections = np.zeros_like(angles)
-        deflections[:, joint] = self.deflection(angles[:, joint], torques[:, joint])
-        return deflections
+        damaged.deflections.append((joint_index(arm, self.joint), self.deflection))
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         """By how much it stands off, (n,) rad, at its angles (n,) [rad] and torques (n,) [N m]."""

@@ -38,8 +38,7 @@ def write_archive(path: str | PathLike[str], header: Mapping[str, Any], groups: 
 def archive_of(header: Mapping[str, Any], groups: Arrays) -> bytes:
     """The archive of arrays, named by their groups as in position/theta.
 
-    Args:
-        header: of JSON's types, with the `format` and its `version`.
+    The header is of JSON's types, with the `format` and its `version`.
     """
     arrays = flat(groups)
     sealed = {**header, "sha256": _digest(header, arrays)}
@@ -58,14 +57,10 @@ def read_archive(
 def opened(
     archive: bytes, path: str | PathLike[str], kind: tuple[str, int], writer: str
 ) -> tuple[dict[str, Any], Arrays]:
-    """Header and groups of an archive.
+    """Header and groups of an archive, whose kind is a format and its version.
 
-    Args:
-        path: of the file, for messages.
-        kind: the format and the version that it must have.
-        writer: what writes such archives, for messages.
-
-    Raises InvalidFile: not whole, or of another format.
+    The file's path and what writes such archives are for messages. Raises InvalidFile: not whole,
+    or of another kind.
     """
     content = io.BytesIO(archive)
     with refused(path, writer):

@@ -14,8 +14,7 @@ from pathlib import Path
 import yaml
 
 from recalib.errors import InvalidFile, InvalidSetting
-from recalib.files.storage import IN_THE_MAKING
-from recalib.files.xml import read_xml
+from recalib.files.storage import IN_THE_MAKING, read_xml
 
 AnyPath = str | os.PathLike[str]
 HIDDEN = ".recalib-"  # how the folder begins in which outputs are made; a process's number follows
@@ -50,8 +49,7 @@ def is_taken(path: AnyPath, folder: bool = False) -> bool:
 def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str = "") -> None:
     """Write a new file, or a new folder of files by their names, with missing parents.
 
-    Args:
-        suffix: the format of a single file, whatever it is called.
+    A single file has the format of the suffix, whatever it is called.
 
     Everything is read back by a parser of its format before it appears. It appears at once and
     replaces nothing. What a killed process left is removed by the next one that writes there.
@@ -59,6 +57,7 @@ def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str =
     Raises as `check_new`, and InvalidFile: a file that cannot be written or read back.
     """
     folder = not isinstance(content, bytes)
+    parts = {"": content} if isinstance(content, bytes) else content
     check_new(path, folder)
     home, target = _home(path), Path(os.path.abspath(path))
     try:
@@ -67,12 +66,10 @@ def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str =
             prefix=f"{HIDDEN}{os.getpid()}-", suffix=IN_THE_MAKING, dir=home
         ) as temporary:
             made = Path(temporary, "made")
-            if isinstance(content, bytes):
-                _write(made, content, path, suffix)
-            else:
+            if folder:
                 made.mkdir()
-                for name, part in content.items():
-                    _write(made / name, part, Path(path, name), Path(name).suffix)
+            for name, part in parts.items():
+                _write(made / name, part, Path(path, name), Path(name).suffix or suffix)
             target.parent.mkdir(parents=True, exist_ok=True)
             check_new(path, folder)
             os.rename(made, target)

@@ -1,18 +1,25 @@
 """Files that are read whole or refused, and files that appear whole or not at all."""
 
+import codecs
 import hashlib
 import os
+import re
 import stat
 import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 from recalib.errors import InvalidFile, InvalidSetting
 
 IN_THE_MAKING = ".part"
 MOST_TOML = 16_000  # bytes: tomllib's memory grows with the square of the parts of a key
+# The encoding of XML: what is declared, or what its first bytes mark.
+_DECLARED = re.compile(rb"""\s*<\?xml[^>]*?\sencoding\s*=\s*["']([\w.-]+)["']""")
+_MARKED = dict.fromkeys((codecs.BOM_UTF16_LE, b"<\0"), "utf-16-le")
+_MARKED |= dict.fromkeys((codecs.BOM_UTF16_BE, b"\0<"), "utf-16-be")
 
 
 def path_of(given: str | os.PathLike[str]) -> Path:
@@ -23,10 +30,7 @@ def path_of(given: str | os.PathLike[str]) -> Path:
 
 
 def read_file(path: str | os.PathLike[str], most: int) -> bytes:
-    """The bytes of a file.
-
-    Args:
-        most: the largest size that is read [bytes].
+    """The bytes of a file, which may be `most` at most.
 
     Raises InvalidFile: no such file, one that cannot be read or has no end, or a larger one.
     """
@@ -57,6 +61,31 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
         raise InvalidFile(path, f"it is not TOML: {error}") from None
     except RecursionError:
         raise InvalidFile(path, "its parts are nested too deep") from None
+
+
+def encoding(source: bytes) -> str:
+    """The encoding of XML: what its first bytes mark or declare, or else UTF-8."""
+    if declared := _DECLARED.match(source):
+        return declared[1].decode("ascii")
+    return _MARKED.get(source[:2], "utf-8")
+
+
+def read_xml(source: bytes, path: Path) -> ElementTree.Element:
+    """The root of XML; its path is for messages.
+
+    Raises InvalidFile: not XML, with line and column; or in another encoding than it declares.
+    """
+    try:
+        text = source.decode(encoding(source))
+        if text.encode(encoding(source)) != source:  # a corrected one could not keep its bytes
+            raise UnicodeError
+        return ElementTree.fromstring(text)
+    except (LookupError, UnicodeError):
+        raise InvalidFile(path, f"its text is not in {encoding(source)}") from None
+    except ElementTree.ParseError as error:
+        words, line, column = str(error).partition(":")[0], *error.position
+        reason = f"it is not XML: line {line}, column {column}: {words}"
+        raise InvalidFile(path, reason) from None
 
 
 def digest(content: bytes) -> str:

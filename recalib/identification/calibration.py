@@ -44,12 +44,8 @@ class Calibration:
     def forward(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
-        If a frame was unknown, the arm's own base or tool is nominal.
-
-        Args:
-            joints: (n, joints) rad, m that the controller assumes.
-
-        Raises InvalidSetting: another shape, NaN.
+        The controller assumes joints (n, joints) [rad, m]. If a frame was unknown, the arm's own
+        base or tool is nominal. Raises InvalidSetting: another shape, NaN.
         """
         angles = array_of("joints", joints, ("n", self._arm.model.nv))
         return self._moved(self._arm.forward(self._standing(angles)), angles)
@@ -65,10 +61,7 @@ class Calibration:
     def predict(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
         """Predicted measurements: poses (n, 4, 4) of targets in the instrument's frame [m].
 
-        Args:
-            joints: (n, joints) rad, m that the controller assumes.
-            targets: (n,) the numbers of the sights; default: the first.
-
+        Joints are as for `forward`, targets (n,) the numbers of the sights; default: the first.
         Raises InvalidSetting: another shape, NaN.
         """
         angles = array_of("joints", joints, ("n", self._arm.model.nv))
@@ -90,13 +83,10 @@ class Calibration:
     def position_covariances(
         self, joints: np.ndarray, shifted: bool, targets: np.ndarray | None = None
     ) -> np.ndarray:
-        """Covariances (n, 3, 3) [m^2] of predicted positions of targets.
+        """Covariances (n, 3, 3) [m^2] of predicted positions; joints and targets as of `predict`.
 
-        Args:
-            joints: (n, joints) rad, m.
-            shifted: whether one shift and turn of instrument and target, common to all rows, is
-                removed: the range of a camera is only as accurate as its board and lens.
-            targets: (n,) the numbers of the sights; default: the first.
+        If shifted, one shift and turn of instrument and target, common to all rows, is removed: the
+        range of a camera is only as accurate as its board and lens.
         """
         model, estimate = self.model, self.estimate
         _, jacobians = model.linearise(estimate.parameters, joints, targets)
@@ -154,14 +144,9 @@ class Calibration:
         """By the pattern of the first target, as the instrument would see it."""
         if self.pattern is None:
             return poses
-        base, target, from_base, from_target = self._first_frames
-        return from_base @ self._shifted(base @ poses @ target, joints) @ from_target
-
-    @cached_property
-    def _first_frames(self) -> tuple[np.ndarray, ...]:
-        """Of the first instrument and target (4, 4) [m], and their inverses: seldom inverted."""
         base, target = self.frames.base, self.frames.targets[0]
-        return base, target, np.linalg.inv(base), np.linalg.inv(target)
+        seen = self._shifted(base @ poses @ target, joints)
+        return np.linalg.inv(base) @ seen @ np.linalg.inv(target)
 
     def _shifted(
         self, poses: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
@@ -276,8 +261,7 @@ def with_pattern(
 ) -> Calibration:
     """With a process of its residuals, if there are enough of them and they are not noise.
 
-    Args:
-        hyperparameters: of the process, which take long to find; default: the most probable.
+    Its hyperparameters are the most probable, unless given: to find them takes long.
     """
     estimate = calibration.estimate
     noise, good = estimate.noise, np.flatnonzero(estimate.weights > DOUBTFUL)

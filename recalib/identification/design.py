@@ -15,11 +15,8 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     """The information gained by a measurement at each of several postures, (n,) in nats.
 
     It is the logarithm of the factor by which the volume of the parameters' uncertainty would
-    shrink: what D-optimal designs maximise.
-
-    Args:
-        calibration: so far.
-        joints: (n, joints) rad, m, each for one measurement of the first target.
+    shrink: what D-optimal designs maximise. Joints (n, joints) [rad, m] are each for one
+    measurement of the first target.
 
     Raises InvalidSetting: another shape, something else than a calibration.
     """
@@ -45,14 +42,10 @@ def surprises(calibration: Calibration, observations: Observations) -> np.ndarra
 def most_informative(
     calibration: Calibration, joints: np.ndarray, count: int, optics: Optics | None = None
 ) -> Iterator[tuple[int, np.ndarray]]:
-    """The postures of the largest gains, each given those before it.
+    """So many postures of the largest gains, none twice, each given those before it.
 
-    Args:
-        calibration, joints: as above.
-        count: how many, if there are so many; none twice.
-        optics: what pictures would be worth there; None where no cameras measure.
-
-    Yields each one's number, and the covariance (P, P) of the parameters once it is measured.
+    Optics say what pictures would be worth there; None where no cameras measure. Yields each one's
+    number, and the covariance (P, P) of the parameters once it is measured.
     """
     rows, covariance = _rows(calibration, joints, optics), calibration.estimate.covariance
     unused = np.ones(len(rows), dtype=bool)

@@ -23,9 +23,8 @@ from scipy.special import chdtri
 
 from recalib.errors import BadMeasurement
 from recalib.identification.model.error_model import ErrorModel
-from recalib.identification.model.input_checks import check_observations
 from recalib.identification.model.linearisation import Linearisation
-from recalib.identification.model.observations import Observations
+from recalib.identification.model.observations import Observations, check_observations
 from recalib.identification.unseen import Unseen
 
 GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements

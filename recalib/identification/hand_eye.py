@@ -300,8 +300,7 @@ def information(found: HandEye) -> np.ndarray:
 def held_out(found: HandEye, folds: np.ndarray | None = None) -> np.ndarray:
     """Residuals (n, 6) [m, rad] of each pose by a calibration without its fold.
 
-    Args:
-        folds: (n,) the number of each pose's fold (default: of 30, in turn).
+    Folds (n,) are the numbers of the poses' parts; by default 30, in turn.
     """
     residuals = np.zeros((len(found.sights), 6))
     folds = np.arange(len(residuals)) % FOLDS if folds is None else folds

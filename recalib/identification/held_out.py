@@ -65,10 +65,8 @@ class HeldOut:
 
         A covariance counts noise and the parameters' uncertainty, but not errors that no parameter
         describes: they are in the residuals (split conformal prediction, Lei et al. 2018). If parts
-        lie apart, their errors differ, and a new place may be as bad as the worst.
-
-        Args:
-            kind: 0 of position [m], 1 of orientation [rad].
+        lie apart, their errors differ, and a new place may be as bad as the worst. Kind 0 is of
+        position [m], 1 of orientation [rad].
         """
         off, radii = self.errors[:, kind], []
         for fold in np.unique(self.folds):

@@ -15,9 +15,8 @@ from recalib.errors import RecalibError, check_kind
 from recalib.identification.closed_forms import solutions, turns_by_poses
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import HELD, Frames
-from recalib.identification.model.input_checks import check_rows
 from recalib.identification.model.linearisation import LEVER, Linearisation, displacements
-from recalib.identification.model.observations import Observations
+from recalib.identification.model.observations import Observations, check_rows
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 from recalib.spelling import counted
@@ -100,11 +99,9 @@ def initial_frames(
 
 
 def joined_frames(parts: Sequence[Frames], sights: np.ndarray) -> Frames:
-    """The frames of several instruments and targets, each of which the first part decides.
+    """The frames of several instruments and targets, from the parts by each sight alone.
 
-    Args:
-        parts: the frames by each sight alone.
-        sights: (s, 2) the numbers of its instrument and its target.
+    The first part of each decides. Sights (s, 2) are the numbers of instruments and targets.
     """
     instruments, targets = (np.unique(column, return_index=True)[1] for column in sights.T)
     bases = np.array([parts[sight].base for sight in instruments])

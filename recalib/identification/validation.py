@@ -82,10 +82,6 @@ class Validation:
         """The one that is chosen."""
         return self.full[self.chosen]
 
-    def errors(self, way: str, kind: str) -> np.ndarray:
-        """(n, 1) m or (n, 2) m and rad: how far off, and how far turned."""
-        return self.held_out[way][kind].errors
-
     def judged(self, way: str) -> np.ndarray:
         """Rows (n,) whose errors count: all but outliers and rows that are `lost`.
 

@@ -7,6 +7,5 @@ from .kinds import class_of as class_of
 from .kinds import kind_of as kind_of
 from .learned import VERSION as VERSION
 from .learned import read as read
-from .maps import Maps as Maps
 from .nets import regular_grid as regular_grid
 from .observer import is_due as is_due

@@ -65,7 +65,6 @@ class PolynomialLearner(Observer):
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
-        """An untrained learner for a number of runs, from its `settings`."""
         return cls(**settings, runs=runs)
 
     def settings(self) -> dict[str, Any]:
@@ -80,7 +79,6 @@ class PolynomialLearner(Observer):
         ]
 
     def restore(self, states: Sequence[State]) -> None:
-        """Restore a `state`."""
         self._coefficients = np.stack([state["coefficients"] for state in states])
         self._spread = np.stack([state["spread"] for state in states])
 

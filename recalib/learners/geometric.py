@@ -72,11 +72,7 @@ class GeometricLearner(Refitting):
 
     @classmethod
     def identify(cls, arm: Arm, observations: Observations) -> Calibration:
-        """Learn at once from earlier measurements of an arm.
-
-        Args:
-            arm: the nominal one.
-        """
+        """Learn at once from earlier measurements of an arm, given the nominal one."""
         return cls._calibrate(arm, observations, None)
 
     def _restored(self, state: Mapping[str, Any]) -> Calibration:

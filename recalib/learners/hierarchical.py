@@ -9,7 +9,8 @@ import numpy as np
 from recalib.arrays import array_of
 from recalib.errors import check_kind
 from recalib.learners import kernels
-from recalib.learners.maps import Maps
+from recalib.learners.kernels import JACOBIAN, THETA, WAITING, Cells
+from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
 from recalib.loop.interfaces import Execute, State
@@ -20,12 +21,21 @@ from recalib.nominal.robots import Robot
 class HierarchicalLearner:
     """Hierarchical maps with the learning cycle of section 2, without its first step.
 
-    The centres of the cells stay where they are (section 3).
+    The centres of the cells stay where they are (section 3). Cells start as the identity, which is
+    right for the intact robot (section 3). Values of theta may start at random, as Ritter's do: new
+    values replace them. Increments of theta never replace their start, nor does anything where the
+    Jacobian is random or zero: both start as the identity.
+
+    What one run learns depends on no other run.
 
     Args:
         rules: which rules to learn by.
         schedule: how widths and rates fall.
         runs: how many independent trainings.
+
+    Attributes:
+        nets: where the cells are, the same in all maps.
+        cells: what they hold, once waiting updates are applied: see `recalib.learners.kernels`.
 
     Raises InvalidSetting where the schedule is for other maps than the rules, or for other runs.
     """
@@ -34,21 +44,55 @@ class HierarchicalLearner:
         check_kind("rules", rules, Rules)
         check_kind("schedule", schedule, Schedule)
         self.rules, self.schedule = rules, schedule.over(runs)
-        self.maps = Maps(runs, rules)
-        self._runs = runs
+        self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
+        self._runs, self._waiting = runs, 0  # updates
+        self.cells = self._untrained()
+        self._increments = rules.theta_increments, rules.jacobian_increments
         self._metric = np.square(np.asarray(rules.metric, dtype=float))
         self._widths = *self.schedule.widths(rules.maps), rules.width_power
         start, end = np.asarray(self.schedule.initial_rate), np.asarray(self.schedule.final_rate)
         self._rate = start, end, rules.rate_power
 
+    def _untrained(self) -> Cells:
+        nets, rules = self.nets, self.rules
+        shape, maps = nets.centres.shape[:2], len(rules.maps)
+        theta = nets.centres
+        if rules.initial is not None and not rules.theta_increments:
+            theta = np.random.default_rng(rules.initial).uniform(-1, 1, theta.shape)
+        jacobian = np.broadcast_to(np.eye(6).ravel(), (*shape, 36))
+        theta, jacobian = (  # repeated, they are in C order: in any other, `_settle` is slower
+            np.repeat(np.stack(np.split(start, maps, axis=-1))[None], self._runs, axis=0)
+            for start in (theta, jacobian)
+        )
+        waiting = self._runs, maps, WAITING
+        return Cells(
+            w_k=nets.w_k,
+            w_kl=nets.w_kl,
+            squares_k=nets.squares_k,
+            squares_kl=nets.squares_kl,
+            theta=theta,
+            jacobian=jacobian,
+            g_k=np.zeros((*waiting, shape[0])),
+            g_kl=np.zeros((*waiting, shape[1])),
+            theta_star=np.zeros((*waiting, 6 // maps)),
+            jacobian_star=np.zeros((*waiting, 36 // maps)),
+            rates=np.zeros((self._runs, WAITING, 2)),
+        )
+
     def command(self, desired: np.ndarray) -> np.ndarray:
-        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6).
+        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6), by (1).
 
         Raises InvalidSetting: another shape, NaN.
         """
         desired = array_of("desired", desired, (self._runs, "n", 6))
-        self.maps.settle()
-        return kernels.commands(tuple(self.maps.cells), np.ascontiguousarray(desired))
+        self._settle()
+        run, (k, l) = np.arange(self._runs)[:, None], self.nets.winner(desired)
+        offsets = desired - self.nets.centres[k, l]
+        commands = self.cells.theta[run, :, k, l].reshape(desired.shape)
+        jacobians = self.cells.jacobian[run, :, k, l].reshape(*desired.shape, 6)
+        for column in range(6):  # added in the same order as by `kernels.respond`
+            commands += jacobians[..., column] * offsets[..., [column]]
+        return commands
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.
@@ -56,10 +100,10 @@ class HierarchicalLearner:
         Nothing is learned from a refused move. Raises BadMeasurement if the achieved pose
         is not a number, far off, or the same for all commands.
         """
-        maps, desired = self.maps, np.ascontiguousarray(desired)
-        if maps.waiting == kernels.WAITING:
-            maps.settle()
-        cells = tuple(maps.cells), maps.waiting, maps.increments
+        desired = np.ascontiguousarray(desired)
+        if self._waiting == WAITING:
+            self._settle()
+        cells = tuple(self.cells), self._waiting, self._increments
         command, winners, theta, jacobian = kernels.respond(*cells, desired)
         sent = command[:, None]
         first = execute(sent)
@@ -70,7 +114,21 @@ class HierarchicalLearner:
         check_moves(sent, second.achieved, second.executed, last)
         held, falls = (winners, theta, jacobian, correction), (self._widths, self._rate)
         kernels.learn(*cells, *held, *first, *second, self._metric, *falls, fraction)
-        maps.waiting += 1
+        self._waiting += 1
+
+    def _settle(self) -> None:
+        """Apply the updates that wait, run by run: so the cache holds what a run needs."""
+        waiting, self._waiting, cells = slice(self._waiting), 0, self.cells
+        if not waiting.stop:
+            return
+        for run, each in np.ndindex(cells.theta.shape[:2]):
+            here, rates = (run, each, waiting), cells.rates[run, waiting]
+            g_k, g_kl = cells.g_k[here], cells.g_kl[here]
+            theta, jacobian = cells.theta[run, each], cells.jacobian[run, each]
+            star = cells.theta_star[here]
+            _apply(theta, rates[:, THETA], g_k, g_kl, star, self._increments[THETA])
+            star = cells.jacobian_star[here]
+            _apply(jacobian, rates[:, JACOBIAN], g_k, g_kl, star, self._increments[JACOBIAN])
 
     def widths(self, fraction: float) -> np.ndarray:
         """Widths (run, map, 2) of g_k and g_kl after this fraction of the training."""
@@ -79,7 +137,6 @@ class HierarchicalLearner:
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
-        """An untrained learner for a number of runs, from its `settings`."""
         rules: dict[str, Any] = {
             name: tuple(value) if isinstance(value, list) else value
             for name, value in settings["rules"].items()
@@ -94,7 +151,7 @@ class HierarchicalLearner:
 
     def state(self) -> list[State]:
         """For each run theta (K, L, o) and Jacobians (K, L, o, 6) of each map, by its name."""
-        self.maps.settle()
+        self._settle()
         return [
             {
                 name: {"theta": theta[run].copy(), "jacobian": jacobian[run].copy()}
@@ -104,15 +161,31 @@ class HierarchicalLearner:
         ]
 
     def restore(self, states: Sequence[State]) -> None:
-        """Restore a `state`."""
-        self.maps.settle()
+        self._settle()
         for name, theta, jacobian in self._held():
             theta[:] = [state[name]["theta"] for state in states]
             jacobian[:] = [state[name]["jacobian"] for state in states]
 
     def _held(self) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
         """The name of each map, its theta (run, K, L, o) and its Jacobians (run, K, L, o, 6)."""
-        cells = self.maps.cells
+        cells = self.cells
         for each, name in enumerate(self.rules.maps):
             jacobian = cells.jacobian[:, each]
             yield name, cells.theta[:, each], jacobian.reshape(*jacobian.shape[:-1], -1, 6)
+
+
+def _apply(
+    held: np.ndarray,
+    rate: np.ndarray,
+    g_k: np.ndarray,
+    g_kl: np.ndarray,
+    star: np.ndarray,
+    increments: bool,
+) -> None:
+    """Move cells (K, L, n) by updates, (7) and (9), or draw them towards them, (4) and (5)."""
+    if increments:
+        weighted = rate[:, None] * g_k
+        held += (weighted.T @ kernels.spread_over(g_kl, star)).reshape(held.shape)
+    else:
+        weights, remaining = kernels.lasting(rate, g_k, g_kl)
+        kernels.draw(held, remaining, weights.T @ star)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from recalib.errors import UnknownName
+from recalib.errors import UnknownName, check_name
 
 if TYPE_CHECKING:  # a look at the table does not import what learners need
     from recalib.loop.interfaces import Savable
@@ -57,6 +57,5 @@ def kind_of(learner: object) -> str:
 
 def class_of(kind: str) -> "type[Savable]":
     """The class of a kind. Raises UnknownName."""
-    if kind not in KINDS:
-        raise UnknownName("kind of learner", kind, KINDS)
+    check_name("kind of learner", kind, KINDS)
     return resolve_name(KINDS[kind].home)

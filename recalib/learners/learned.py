@@ -43,10 +43,7 @@ def save(path: Path, learner: Savable, robot: Robot) -> None:
 
 
 def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
-    """The learner that `save` wrote, for the same robot.
-
-    Args:
-        run: the one to load; default: all of them.
+    """The learner that `save` wrote, for the same robot: of one run, or by default of all.
 
     Raises InvalidFile (not whole, or no such file), OtherRobot, and InvalidSetting (no such run, or
     something else than a robot).

@@ -138,7 +138,6 @@ class Refitting(Observer):
         ]
 
     def restore(self, states: Sequence[State]) -> None:
-        """Restore a `state`."""
         self._moves = {
             name: np.stack([state["moves"][name] for state in states]) for name in self._moves
         }

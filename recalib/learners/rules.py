@@ -10,15 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.arrays import array_of
-from recalib.errors import InvalidSetting, UnknownName, check_kind
+from recalib.errors import InvalidSetting, check_kind, check_name
 from recalib.learners.nets import CENTRES
-from recalib.learners.schedules import (
-    DIMENSIONS,
-    EXPONENTIAL,
-    RATES,
-    SPREADS,
-    equal_visits,
-)
+from recalib.learners.schedules import DIMENSIONS, EXPONENTIAL, RATES, SPREADS
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
@@ -72,13 +66,9 @@ class Rules:
     def __post_init__(self) -> None:
         for key in ("separate_maps", "theta_increments", "jacobian_increments", "equal_visits"):
             check_kind(key, getattr(self, key), bool)
-        for kind, name, valid in (
-            ("centres of cells", self.centres, CENTRES),
-            ("spread of equal visits", self.spread, SPREADS),
-            ("fall of the learning rate", self.law_of_rate, RATES),
-        ):
-            if name not in valid:
-                raise UnknownName(kind, name, valid)
+        check_name("centres of cells", self.centres, CENTRES)
+        check_name("spread of equal visits", self.spread, SPREADS)
+        check_name("fall of the learning rate", self.law_of_rate, RATES)
         if self.dimensions not in (3, 6):
             raise InvalidSetting("dimensions", self.dimensions, "3 or 6")
         for key in ("supernet", "subnet"):
@@ -103,7 +93,7 @@ class Rules:
     @property
     def width_power(self) -> float:
         """The power of widths that is linear in time; see `recalib.learners.schedules`."""
-        return equal_visits(self.dimensions, self.spread) if self.equal_visits else EXPONENTIAL
+        return float(SPREADS[self.spread] - self.dimensions) if self.equal_visits else EXPONENTIAL
 
     @property
     def rate_power(self) -> float:

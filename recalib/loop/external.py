@@ -60,38 +60,26 @@ class ExternalRobot:
         for index in np.ndindex(executed.shape):
             measured = self._move(poses[index])
             executed[index] = measured is not None
-            if measured is None:
-                measured = self.workspace.centre
-            else:
-                measured = checked_pose(measured, self.workspace.centre)
-            poses[index] = measured
+            poses[index] = self.workspace.centre if measured is None else self._checked(measured)
         return poses, executed
 
-
-def checked_pose(given: ArrayLike, expected: np.ndarray) -> np.ndarray:
-    """A measured pose (4, 4) [m] in the base frame.
-
-    Args:
-        given: by the robot.
-        expected: (4, 4) likewise, to which it must be near.
-
-    Raises BadMeasurement: it is no pose, or grossly off.
-    """
-    try:
-        measured = np.asarray(given, dtype=float)
-    except (TypeError, ValueError):  # something else than numbers
-        measured = np.empty(0)
-    if measured.shape != (4, 4):
-        valid = "a matrix (4, 4)"
-    elif not np.isfinite(measured).all():
-        valid = "numbers"
-    elif not are_poses(measured):
-        valid = POSE
-    elif np.linalg.norm(measured[:3, 3] - expected[:3, 3]) > FARTHEST:
-        valid = f"m in the base frame, at most {FARTHEST:g} m from the workspace's centre"
-    else:
-        return measured
-    raise BadMeasurement("the robot", np.ravel(measured), valid)
+    def _checked(self, given: ArrayLike) -> np.ndarray:
+        """A measured pose (4, 4) [m]. Raises BadMeasurement: it is no pose, or grossly off."""
+        try:
+            measured = np.asarray(given, dtype=float)
+        except (TypeError, ValueError):  # something else than numbers
+            measured = np.empty(0)
+        if measured.shape != (4, 4):
+            valid = "a matrix (4, 4)"
+        elif not np.isfinite(measured).all():
+            valid = "numbers"
+        elif not are_poses(measured):
+            valid = POSE
+        elif np.linalg.norm((measured - self.workspace.centre)[:3, 3]) > FARTHEST:
+            valid = f"m in the base frame, at most {FARTHEST:g} m from the workspace's centre"
+        else:
+            return measured
+        raise BadMeasurement("the robot", np.ravel(measured), valid)
 
 
 def are_poses(matrices: np.ndarray) -> np.ndarray:

@@ -104,8 +104,4 @@ class ForwardKinematics(Protocol):
     """The interface of a simulated robot's arm: its forward kinematics."""
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m].
-
-        Args:
-            angles: (n, joint) rad that the controller assumes.
-        """
+        """Tool poses (n, 4, 4) [m] in the base frame, at angles [rad] that a controller assumes."""

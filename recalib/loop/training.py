@@ -76,10 +76,8 @@ def measure(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Position [m] and orientation errors [rad], each (run, summary), at poses (run, pose, 6).
 
-    Measuring teaches nothing: its moves are not counted.
-
-    Args:
-        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+    Measuring teaches nothing: its moves are not counted. Which `error` of a pose it is:
+    see `recalib.nominal.poses.pose_errors`.
     """
     achieved, _ = plant.achieve(learner.command(tests))
     errors = pose_errors(plant.workspace, achieved, plant.workspace.to_poses(tests), error)

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.errors import InvalidSetting, UnsuitableRobot, check_name
 from recalib.files.storage import read_file
 from recalib.nominal.descriptions import (
     MOST,
@@ -74,10 +74,8 @@ def _coupling_of(
 ) -> Coupling | None:
     """The coupling of joints by `<mimic>`; None if none follows another.
 
-    Args:
-        joints: all joints of a URDF, by name.
-        names: of those between base and tool.
-        limits: (2, joint) rad, m, lower and upper, of these.
+    Of all joints of a URDF, the names are of those between base and tool, and so are the limits
+    (2, joint) [rad, m], lower and upper.
 
     Raises UnsuitableRobot: a joint that follows itself, or none that moves.
     """
@@ -85,12 +83,8 @@ def _coupling_of(
         return None
     drivers, gains, shifts = zip(*(_followed(joints, name) for name in names), strict=True)
     columns = tuple(dict.fromkeys(drivers))
-    matrix = np.array(
-        [
-            [gain * (driver == column) for column in columns]
-            for driver, gain in zip(drivers, gains, strict=True)
-        ]
-    )
+    matrix = np.zeros((len(names), len(columns)))
+    matrix[np.arange(len(names)), [columns.index(driver) for driver in drivers]] = gains
     bounds = np.array([_limits(joints[column]) for column in columns]).T
     for driver, gain, shift, ends in zip(drivers, gains, shifts, limits.T, strict=True):
         if gain:
@@ -188,8 +182,7 @@ class _Tree:
         """The same name, if a link has it. Raises UnknownName, UnsuitableRobot (in a circle)."""
         if name in self._circles:
             self._refuse_circles()
-        if name not in self._links:
-            raise UnknownName(f"{role} link of {self._name}", name, self._links)
+        check_name(f"{role} link of {self._name}", name, self._links)
         return name
 
     def _refuse_circles(self) -> NoReturn:

@@ -25,10 +25,9 @@ class Chain(kernels.Arms):
 
     @classmethod
     def of(cls, arm: Arm, offsets: np.ndarray | None = None) -> Self:
-        """A single arm; the chain does not follow when it changes.
+        """A single arm, whose joints stand by offsets (n,) [rad, m] beyond their joint angles.
 
-        Args:
-            offsets: (n,) rad or m by which each joint stands beyond its joint angle.
+        The chain does not follow when the arm changes.
         """
         model, frame = arm.model, arm.model.frames[tool_frame(arm.model, arm.tool)]
         joints, before, placements = [*model.jointPlacements][1:], pin.SE3.Identity(), []

@@ -19,7 +19,7 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.arrays import array_of
-from recalib.errors import InvalidSetting, UnknownName, check_kind
+from recalib.errors import InvalidSetting, check_kind, check_name
 from recalib.nominal.kinematics import Arm
 
 CONVENTIONS = "standard", "modified"
@@ -55,8 +55,7 @@ def arm_of_table(rows: Sequence[Row], convention: str = "standard") -> Arm:
     Raises UnknownName (a convention), and InvalidSetting (no rows or too many, joints of one name,
     a parameter that is not a number).
     """
-    if convention not in CONVENTIONS:
-        raise UnknownName("convention of Denavit-Hartenberg parameters", convention, CONVENTIONS)
+    check_name("convention of Denavit-Hartenberg parameters", convention, CONVENTIONS)
     _check(rows)
     model = pin.Model()
     _add_link(model, BASE, 0, pin.SE3.Identity())

@@ -16,8 +16,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.files.storage import path_of, read_file
-from recalib.files.xml import read_xml
+from recalib.files.storage import path_of, read_file, read_xml
 
 DATA = "example-robot-data"
 FETCHED = "robot_descriptions"  # of robot_descriptions.py, which fetches and keeps them
@@ -42,10 +41,8 @@ _ONE = threading.Lock()  # for one block at a time
 def find_urdf(urdf: str | PathLike[str]) -> Path:
     """The file of a URDF. One of the user's own comes before one of a package.
 
-    Args:
-        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the
-            name of a description in robot_descriptions.py, such as panda_description, if that is
-            installed.
+    It is a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the name of
+    a description in robot_descriptions.py, such as panda_description, if that is installed.
 
     Raises UnknownName, or InvalidFile if it is a path and not a name.
     """
@@ -108,10 +105,7 @@ class UrdfFile:
 
 
 def parsed(source: bytes, path: Path) -> Element:
-    """The root of a URDF.
-
-    Args:
-        path: of the file, for messages.
+    """The root of a URDF; its path is for messages.
 
     Raises UnsuitableRobot: not XML, in another encoding than it declares, or of too many joints.
     """

@@ -38,11 +38,8 @@ def solve_groups(
         few = start.shape[-1] < residual.shape[-1]  # then the steps make squares least
         errors = np.linalg.norm(residual, axis=-1) if few else np.abs(residual).max(axis=-1)
         better = errors < least
-        if better.all():
-            best, least = angles, errors
-        else:
-            best = np.where(better[..., None], angles, best)
-            least = np.where(better, errors, least)
+        best = np.where(better[..., None], angles, best)
+        least = np.where(better, errors, least)
         goes_on = (least > tolerance).any(axis=1)
         if not goes_on.any():
             break

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from recalib.arrays import array_of, check_rotations, ending
-from recalib.errors import InvalidSetting, UnknownName
+from recalib.errors import InvalidSetting, check_name
 from recalib.nominal import kernels
 
 COORDINATES = "roll_pitch_yaw", "rotation_vector"  # of orientations
@@ -41,8 +41,7 @@ class Workspace:
     coordinates: str = "roll_pitch_yaw"
 
     def __post_init__(self) -> None:
-        if self.coordinates not in COORDINATES:
-            raise UnknownName("coordinates of orientations", self.coordinates, COORDINATES)
+        check_name("coordinates of orientations", self.coordinates, COORDINATES)
         for name, shape in {"centre": (4, 4), "half_ranges": (6,)}.items():
             object.__setattr__(self, name, array_of(name, getattr(self, name), shape))
         check_rotations("centre", self.centre)
@@ -112,8 +111,7 @@ def pose_errors(
 
     Raises UnknownName.
     """
-    if error not in ERRORS:
-        raise UnknownName("error of a pose", error, ERRORS)
+    check_name("error of a pose", error, ERRORS)
     if error == "norm":
         return _distances(achieved, desired)
     offsets = workspace.to_coordinates(achieved) - workspace.to_coordinates(desired)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.errors import InvalidSetting, UnsuitableRobot, check_name
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm, tool_frame
@@ -122,8 +122,7 @@ def load_robot(
         )
     for key, given in (("home", home), ("limits", limits)):
         for joint in given:
-            if joint not in joints:
-                raise UnknownName(f"joint in {key}", joint, joints)
+            check_name(f"joint in {key}", joint, joints)
     if missing := [joint for joint in joints if joint not in home]:
         raise InvalidSetting("home", dict(home), f"an angle for {', '.join(missing)} too")
     lower, upper = arm.model.lowerPositionLimit.copy(), arm.model.upperPositionLimit.copy()

@@ -4,14 +4,14 @@ from functools import cache
 
 import numpy as np
 
-from recalib.numerics.compiled import compiled
-
 
 def monomials(points: np.ndarray, degree: int) -> np.ndarray:
     """The products (..., F) of up to `degree` coordinates of points (..., d), by their degrees."""
     shorter, last = factors(points.shape[-1], degree)
-    products = _products(points.reshape(-1, points.shape[-1]), shorter, last)
-    return products.reshape(*points.shape[:-1], len(last))
+    products = np.ones((*points.shape[:-1], len(last)))
+    for _ in range(degree):  # each time, those of one more degree are right
+        products[..., 1:] = products[..., shorter[1:]] * points[..., last[1:]]
+    return products
 
 
 @cache
@@ -29,13 +29,3 @@ def factors(dimensions: int, degree: int) -> tuple[np.ndarray, np.ndarray]:
         shorter += [which for which, _ in longer]
         last += [coordinate for _, coordinate in longer]
     return np.array(shorter), np.array(last)
-
-
-@compiled
-def _products(points: np.ndarray, shorter: np.ndarray, last: np.ndarray) -> np.ndarray:
-    products = np.empty((len(points), len(shorter)))
-    for row in range(len(points)):
-        products[row, 0] = 1
-        for index in range(1, len(shorter)):
-            products[row, index] = products[row, shorter[index]] * points[row, last[index]]
-    return products

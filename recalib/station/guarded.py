@@ -28,14 +28,10 @@ class StationRaised(StationFailed):
 
 
 class Guarded:
-    """A station that was opened, with its joints in the order of an arm's.
+    """A station that `opening` makes, with its joints in the order of the nominal arm's.
 
     All calls but a stop come from one thread, which also opens the station: drivers and graphics
     may be bound to it. After `stop`, nothing more is asked of it.
-
-    Args:
-        opening: makes the station.
-        arm: the nominal one.
 
     Raises StationFailed here and in all methods that call it: its mistake, in a sentence.
     """

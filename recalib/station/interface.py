@@ -23,12 +23,10 @@ class Station(Protocol):
     @property
     def joints(self) -> Sequence[str]:
         """Names of the joints as in the URDF, in the order of all angles below."""
-        ...
 
     @property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """The lowest and highest angles (joints,) [rad; m if prismatic]."""
-        ...
 
     def move(self, angles: np.ndarray, speed: float) -> None:
         """Move to joint angles (joints,) [rad, m] and return when the arm stands still.
@@ -38,11 +36,9 @@ class Station(Protocol):
 
         Raises StationFailed: it did not get there, or touched something.
         """
-        ...
 
     def angles(self) -> np.ndarray:
         """The encoders' joint angles (joints,) [rad, m]."""
-        ...
 
     def measure(self) -> Mapping[str, float | str] | None:
         """A measurement, as cells of a row by their column's heading.
@@ -50,11 +46,9 @@ class Station(Protocol):
         For instance `x [m]`, `y [m]`, `z [m]` and `qx`, `qy`, `qz`, `qw`, or `picture`, the path of
         a file. None where it does not see the target. Raises StationFailed.
         """
-        ...
 
     def stop(self) -> None:
         """Stop at once. It raises nothing and may be called repeatedly at any time."""
-        ...
 
 
 def cells_of(pose: np.ndarray) -> dict[str, float | str]:

@@ -9,18 +9,10 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.identification.model.optics import Optics
 from recalib.station.interface import Station, StationFailed, cells_of
+from recalib.vision import views
 from recalib.vision.boards import Board
 from recalib.vision.detection import FEWEST, Corners, Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
-from recalib.vision.views import (
-    Sighting,
-    board_pose,
-    good_corners,
-    optics_of,
-    predicted_views,
-    reprojection,
-    sighting,
-)
 
 PICTURE = "picture"
 WRONG = 5.0  # px by which corners are off: so far, by no lens that is near the true one
@@ -29,22 +21,19 @@ WRONG = 5.0  # px by which corners are off: so far, by no lens that is near the 
 class BoardInPictures:
     """A board in the pictures of a camera, each of which is searched once.
 
-    Args:
+    Attributes:
         board: which is in them.
         lens: of the camera, near the true one.
         in_hand: whether the camera is on the hand.
-
-    Attributes:
-        board, lens, in_hand: as given.
         tool_radius: m that a board around the tool link's origin takes, however it is turned.
     """
 
     def __init__(self, board: Board, lens: Lens, in_hand: bool):
         self.board, self.lens, self.in_hand = board, lens, in_hand
         self.tool_radius = 0.0 if in_hand else float(np.linalg.norm(board.size)) / 2
-        self._sightings: dict[str, Sighting] = {}
+        self._sightings: dict[str, views.Sighting] = {}
 
-    def search(self, path: str, grey: np.ndarray) -> Sighting | None:
+    def search(self, path: str, grey: np.ndarray) -> views.Sighting | None:
         """The board in a picture (height, width) at a path; None if it is not found.
 
         Raises InvalidFile: the picture cannot have been taken with the lens.
@@ -54,16 +43,16 @@ class BoardInPictures:
         except Unusable:
             return None
         view = self.board, self.lens, found
-        off = reprojection(*view, board_pose(*view))
+        off = views.reprojection(*view, views.board_pose(*view))
         if not (typical := float(np.median(np.linalg.norm(off, axis=1)))) < WRONG:
             reason = f"its corners deviate from the given lens by {typical:.3g} px"
             raise InvalidFile(path, f"{reason}; is it this camera's?")
-        corners = good_corners(*view)
+        corners = views.good_corners(*view)
         return self.add(path, corners) if len(corners.numbers) >= FEWEST else None
 
-    def add(self, path: str, corners: Corners) -> Sighting:
+    def add(self, path: str, corners: Corners) -> views.Sighting:
         """The board in a picture with these corners."""
-        self._sightings[path] = sighting(self.board, self.lens, corners, True, self.in_hand)
+        self._sightings[path] = views.sighting(self.board, self.lens, corners, True, self.in_hand)
         return self._sightings[path]
 
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
@@ -82,11 +71,11 @@ class BoardInPictures:
                 size = " x ".join(map(str, self.lens.size))
                 reason = f"it does not show the board in {size} pixels"
                 raise InvalidFile(path, f"{reason}, as its row in the table says")
-        return optics_of(self.lens, [self._sightings[path] for path in paths])
+        return views.optics_of(self.lens, [self._sightings[path] for path in paths])
 
     def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """See `predicted_views`."""
-        return predicted_views(self.board, self.lens, poses, self.in_hand)
+        return views.predicted_views(self.board, self.lens, poses, self.in_hand)
 
 
 class PicturesOfABoard:

@@ -178,11 +178,13 @@ def _markers(
     """Corners (m, 4, 2) [px] and numbers (m,) of markers."""
     settings = cv2.aruco.DetectorParameters()
     if board.kind == APRILGRID:
-        return _tags_of_kalibr(board, picture, settings)
-    if exact:
+        settings.markerBorderBits = KALIBR_BORDER
+    elif exact:
         settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_APRILTAG
     detector = cv2.aruco.ArucoDetector(board.alphabet, settings)
     markers, numbers = _as_arrays(*detector.detectMarkers(picture)[:2])
+    if board.kind == APRILGRID:
+        return _refined_as_kalibr(board, picture, markers, numbers), numbers
     return markers - HALF * exact, numbers
 
 
@@ -246,13 +248,10 @@ def _chessboard(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarr
     return np.arange(columns * rows), grid.reshape(-1, 2)
 
 
-def _tags_of_kalibr(
-    board: Board, picture: np.ndarray, settings: Any
-) -> tuple[np.ndarray, np.ndarray]:
-    """Corners (m, 4, 2) [px], clockwise from the upper left, and numbers (m,) of Kalibr's tags."""
-    settings.markerBorderBits = KALIBR_BORDER
-    detector = cv2.aruco.ArucoDetector(board.alphabet, settings)
-    markers, numbers = _as_arrays(*detector.detectMarkers(picture)[:2])
+def _refined_as_kalibr(
+    board: Board, picture: np.ndarray, markers: np.ndarray, numbers: np.ndarray
+) -> np.ndarray:
+    """Corners (m, 4, 2) [px] of Kalibr's tags, clockwise from the upper left."""
     for tag in markers:
         side = np.linalg.norm(tag - np.roll(tag, 1, axis=0), axis=1).min()
         window = int(np.clip(NEAR * side * (board.square / board.marker - 1) * 2, *WINDOWS))
@@ -261,10 +260,10 @@ def _tags_of_kalibr(
         )[:, 0]
     known = np.isin(numbers - board.first_id, np.arange(board.markers))
     if not len(numbers) or not known.all():
-        return markers, numbers
+        return markers
     places = board.tags[numbers - board.first_id]
     turned = [np.roll(markers, step, axis=1) for step in range(4)]  # prints differ in how tags lie
-    return min(turned, key=lambda each: _misplaced(places, each)), numbers
+    return min(turned, key=lambda each: _misplaced(places, each))
 
 
 def _misplaced(places: np.ndarray, markers: np.ndarray) -> float:

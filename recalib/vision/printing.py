@@ -28,12 +28,13 @@ def draw_board(board: Board, *formats: str) -> tuple[list[bytes], tuple[float, f
     page = figure.add_axes((0, 0, 1, 1), xlim=(0, paper[0]), ylim=(paper[1], 0))
     page.set_axis_off()
     left = (paper[0] - size[0]) / 2
-    # one outline: between shapes that touch, viewers would show a seam
-    outline = np.add(_outline(board.modules, size), (left, MARGIN))
-    page.add_patch(PathPatch(_closed(outline), color="black", linewidth=0))
+    black = np.add(_outline(board.modules, size), (left, MARGIN))
     foot = MARGIN + size[1] + FOOT / 2
     bar = np.array([[0, 0], [BAR, 0], [BAR, 2], [0, 2]]) + np.array([left, foot])
-    page.add_patch(PathPatch(_closed(bar[None]), color="black", linewidth=0))
+    for corners in (black, bar[None]):
+        # one outline: between shapes that touch, viewers would show a seam
+        outline = Outline.make_compound_path_from_polys(corners)
+        page.add_patch(PathPatch(outline, color="black", linewidth=0))
     text = (
         f"This bar is {BAR:g} mm long, or the printer scales. {board.kind}"
         f" {board.columns} x {board.rows}, {1e3 * board.square:g} mm, {board.dictionary}"
@@ -52,10 +53,3 @@ def _outline(black: np.ndarray, size: np.ndarray) -> np.ndarray:
     (line, start), (_, end) = np.nonzero(edges == 1), np.nonzero(edges == -1)
     corners = np.stack([[start, line], [end, line], [end, line + 1], [start, line + 1]])
     return corners.transpose(2, 0, 1) * (size / black.shape[::-1])
-
-
-def _closed(corners: np.ndarray) -> Outline:
-    """One path of quadrilaterals (n, 4, 2)."""
-    codes = [Outline.MOVETO, Outline.LINETO, Outline.LINETO, Outline.LINETO, Outline.CLOSEPOLY]
-    vertices = np.concatenate([corners, corners[:, :1]], axis=1).reshape(-1, 2)
-    return Outline(vertices, np.tile(codes, len(corners)))

@@ -38,10 +38,7 @@ def board_pose(
     """The pose (4, 4) [m] of the board in the camera: the camera's z axis goes into the picture.
 
     It is that at which the corners are nearest to where they should be; without numbers by a lens
-    that cannot see them.
-
-    Args:
-        start: a pose nearby, for speed.
+    that cannot see them. To start from a pose nearby saves time.
     """
     points, pixels = board.points[view.numbers], view.pixels
     pose = _first_pose(points, lens, pixels) if start is None else start
@@ -211,9 +208,7 @@ def _derivatives(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Of pixels (2 c, 6) by a displacement of the measured pose, and by optics (2 c, o).
 
-    Args:
-        points, slopes: as in `projected`.
-        pose: of the board in the camera.
+    Points and slopes are as in `projected`; the pose is that of the board in the camera.
     """
     by_place = slopes[:, 3:6].reshape(-1, 2, 3)
     if in_hand:  # displacements of the camera, along the axes of the board

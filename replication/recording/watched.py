@@ -55,7 +55,7 @@ def watch(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
 
     def on_progress(iteration: int, *_: float) -> None:
         commands.append(learner.command(shown[None])[0])
-        thetas.append(learner.maps.cells.theta[0, 0, ..., POSITION].copy())
+        thetas.append(learner.cells.theta[0, 0, ..., POSITION].copy())
         weights.append(_neighbourhood(learner, poses.desired[0], iteration))
 
     measure_at = study.training.during(iterations)
@@ -69,7 +69,7 @@ def watch(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
         desired=goals,
         achieved=plant.achieve_targets(targets)[0].reshape(len(commands), *goals.shape),
         angles=angles.reshape(len(commands), len(shown), -1),
-        centres=workspace.centre[:3, 3] + learner.maps.nets.w_k * half_ranges,
+        centres=workspace.centre[:3, 3] + learner.nets.w_k * half_ranges,
         weights=np.stack(weights),
         corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,
     )
@@ -77,7 +77,7 @@ def watch(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
 
 def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration: int) -> np.ndarray:
     """g_k (cell,) in the iteration before; zero where there was none."""
-    nets, last = learner.maps.nets, iteration - 1
+    nets, last = learner.nets, iteration - 1
     if iteration == 0:
         return np.zeros(len(nets.w_k))
     widths = learner.widths(last / len(desired))[:, 0].T

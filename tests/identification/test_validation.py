@@ -44,9 +44,9 @@ def validation(ur10, real):
 def test_what_is_said_holds_for_fresh_rows_and_one_grossly_off_does_not_count(real, validation):
     assert validation.chosen == GEOMETRIC
     errors = distances(validation.calibration, real.observe(200))
-    reported = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
+    reported = validation.held_out[RANDOM][GEOMETRIC].errors[validation.counted, 0]
     assert reported.mean() == pytest.approx(errors.mean(), rel=0.2)
-    assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * reported.mean()
+    assert validation.held_out[RANDOM][NOTHING].errors[:, 0].mean() > 10 * reported.mean()
     assert np.mean(errors <= validation.radius) >= 0.9
     assert 0.9 <= validation.coverage(RANDOM) <= 0.98
     for way in WAYS:
@@ -56,7 +56,7 @@ def test_what_is_said_holds_for_fresh_rows_and_one_grossly_off_does_not_count(re
     assert validation.full[GEOMETRIC].estimate.weights[7] < 0.01
     for way in WAYS:
         for kind in KINDS[1:]:
-            assert np.argmax(validation.errors(way, kind)[:, 0]) == 7
+            assert np.argmax(validation.held_out[way][kind].errors[:, 0]) == 7
 
 
 def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):

@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from recalib import Rules
 from recalib.learners import schedules
 
 starts, ends = st.floats(0.2, 5), st.floats(0.01, 0.19)
@@ -15,10 +16,10 @@ def test_time_at_each_width_is_inversely_proportional_to_the_expected_learning(
     n, spread, scale, start, end
 ):
     """The law of section 6: dt L(width), over every step of what is spread, is the same."""
+    rules = Rules(True, True, True, True, dimensions=n, spread=spread)
     time, step = np.linspace(0.05, 0.95, 50), 1e-5
     before, width, after = (
-        schedules.fall(start, end, time + shift, schedules.equal_visits(n, spread))
-        for shift in (-step, 0, step)
+        schedules.fall(start, end, time + shift, rules.width_power) for shift in (-step, 0, step)
     )
     pace = 2 * step / (scale(after) - scale(before))
     learned = pace * schedules.expected_learning(width, n, 2.0**n)

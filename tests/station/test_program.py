@@ -98,7 +98,7 @@ def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, mo
             station.angles()
     station.stop()
     station.close()
-    monkeypatch.setattr("recalib.station.program.PATIENCE", 0.1)
+    monkeypatch.setattr("recalib.station.opening.PATIENCE", 0.1)
     text = f"import time; print({json.dumps(DESCRIBED)!r}, flush=True); time.sleep(60)"
     station, start = ProgramStation([sys.executable, "-c", text]), time.monotonic()
     station.close()

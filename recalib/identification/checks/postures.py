@@ -41,12 +41,10 @@ class Postures:
 
 
 def find_postures(joints: np.ndarray, slides: np.ndarray, noise: float) -> Postures:
-    """The postures in joint coordinates (n, joints) [rad, m].
+    """The postures in joint coordinates (n, joints) [rad, m], of joints that slide or turn.
 
-    Args:
-        slides: (joints,) whether a joint slides.
-        noise: m along an axis. What moves the tool by less than three times as much is the same
-            posture, where a turn of one rad counts as `LEVER`. So is a joint's next full turn.
+    What moves the tool by less than three times the noise [m] along an axis is the same posture,
+    where a turn of one rad counts as `LEVER`. So is a joint's next full turn.
     """
     radius, moved = ALIKE * noise, np.ptp(joints, axis=0) * np.where(slides, 1.0, LEVER)
     turns = joints[:, ~slides]
@@ -61,11 +59,9 @@ def find_postures(joints: np.ndarray, slides: np.ndarray, noise: float) -> Postu
 
 
 def outside_of(known: np.ndarray, poses: np.ndarray) -> np.ndarray:
-    """How far (n, 2) [m, rad] poses are from where others were measured; 0 inside.
+    """How far (n, 2) [m, rad] poses (n, 4, 4) are from where the known (m, 4, 4) are; 0 inside.
 
-    Args:
-        known: (m, 4, 4) m, those that were measured.
-        poses: (n, 4, 4) m, or positions (n, 3), which are turned as it may be.
+    Or positions (n, 3), which are turned as it may be.
     """
     found, mean = np.zeros((len(poses), 2)), nearest_rotation(known[:, :3, :3].sum(axis=0))
     places = poses if poses.ndim == 2 else poses[:, :3, 3]

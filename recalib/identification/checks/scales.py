@@ -65,10 +65,8 @@ class Scale(NamedTuple):
 def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Scale]:
     """The scale of each board, of each distance between sockets, or of all measured positions.
 
-    Simulated arms determine the scale of a board to 0.3 percent.
-
-    Args:
-        frames: an initial estimate of them, with optics if cameras measured.
+    Simulated arms determine the scale of a board to 0.3 percent. The frames are an initial
+    estimate, with optics if cameras measured.
 
     Raises BadMeasurement, as `identify`.
     """

@@ -57,13 +57,10 @@ class Fault:
 
 
 def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
-    """What the rows of each series show by their order, if they were measured in that order.
+    """What rows, by which geometry was identified, show by their order in each series.
 
     A lag bends the arm that is identified, and so leaves more than a lag. If it is the plainest
     fault, all others are looked for without it.
-
-    Args:
-        geometry: identified from the same rows.
     """
     found = _faults(geometry, observations, 1) or _faults(geometry, observations, 2)
     if len(found) < 2 or found[0].kind != LAG:
@@ -83,8 +80,7 @@ def _faults(geometry: Calibration, observations: Observations, power: int) -> li
     """The same, all by one linearisation, with weights that fall by a power of the distance."""
     residuals, arm, weights, model = slopes_of(geometry, observations, power)
     estimate = geometry.estimate
-    slides = model.nominal.slides
-    postures = find_postures(observations.joints, slides, estimate.noise[0])
+    postures = find_postures(observations.joints, model.nominal.slides, estimate.noise[0])
     alike = len(observations) / len(postures)
     candidates = [
         one._replace(columns=one.columns * weights[one.rows, :, None])
@@ -265,8 +261,7 @@ def _speeds(joints: np.ndarray, times: np.ndarray) -> np.ndarray:
 
 def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:
     """What moves of their instruments (n,) by 1 m and 1 rad do to poses (n, 6, 6)."""
-    columns = np.zeros((len(poses), 6, 6))
-    columns[:] = np.eye(6)
+    columns = np.tile(np.eye(6), (len(poses), 1, 1))
     for number in np.unique(instruments):
         rows = instruments == number
         places = poses[rows, :3, 3]

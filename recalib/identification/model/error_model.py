@@ -20,6 +20,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property, reduce
 from operator import or_
+from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -70,8 +71,7 @@ class ErrorModel:
         frames: at both ends of the arm; default: its own base and tool.
 
     Attributes:
-        nominal: the arm.
-        frames: as given.
+        nominal, frames: the arm, and what is at its ends.
         names: of the joint terms.
         deviations: (P,) standard deviations of the parameters under the prior, whose mean is zero.
         free: (P,) whether a parameter is of unknown frames or of optics: it need not be zero.
@@ -212,19 +212,18 @@ class ErrorModel:
     def found(self, parameters: np.ndarray) -> Frames:
         """The frames at both ends as the parameters have them."""
         base, *_ = twists = [pin.exp6(pin.Motion(twist)) for twist in self.twists(parameters)]
-        found = replace(self.frames, sockets=self.sockets(parameters))
-        if found.base_unknown:
-            found = replace(found, base=(base * self._base).homogeneous)
-        if len(found.further):
-            moved = zip(twists[-len(found.further) :], found.further, strict=True)
-            further = [(twist * pin.SE3(pose)).homogeneous for twist, pose in moved]
-            found = replace(found, further=np.array(further))
-        if found.targets_unknown:
-            at_targets = slice(self._joints, self._joints + len(found.targets))
+        frames, found = self.frames, dict[str, Any](sockets=self.sockets(parameters))
+        if frames.base_unknown:
+            found["base"] = (base * self._base).homogeneous
+        if len(frames.further):
+            moved = zip(twists[-len(frames.further) :], frames.further, strict=True)
+            found["further"] = np.array([(by * pin.SE3(pose)).homogeneous for by, pose in moved])
+        if frames.targets_unknown:
+            at_targets = slice(self._joints, self._joints + len(frames.targets))
             ends = zip(twists[at_targets], self._placements[at_targets], strict=True)
             targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
-            found = replace(found, targets=np.array([pose.homogeneous for pose in targets]))
-        return found
+            found["targets"] = np.array([pose.homogeneous for pose in targets])
+        return replace(frames, **found)
 
     def terms(self, joints: np.ndarray) -> np.ndarray:
         """The joint terms (n, term, joints) at joint coordinates (n, joints) [rad, m]."""
@@ -243,12 +242,10 @@ class ErrorModel:
     def predict(
         self, parameters: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
     ) -> np.ndarray:
-        """Poses (n, 4, 4) of targets in the frame of the instrument [m].
+        """Poses (n, 4, 4) of targets in the frame of the instrument [m], by parameters (P,).
 
-        Args:
-            parameters: (P,) of the model.
-            joints: (n, joints) rad, m that the controller assumes.
-            targets: (n,) the numbers of the sights; default: the first.
+        The controller assumes joints (n, joints) [rad, m]. Targets (n,) are the numbers of the
+        sights; default: the first.
         """
         standing = self.standing(parameters, joints)
         poses = np.empty((len(joints), 4, 4))
@@ -266,10 +263,8 @@ class ErrorModel:
         """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) by the parameters.
 
         A Jacobian maps a change of the parameters to the target's translation [m] and turn [rad]
-        along the axes of the instrument.
-
-        Args:
-            terms: `terms` of the joints. They depend on no parameter: one evaluation serves all.
+        along the axes of the instrument. The `terms` of the joints depend on no parameter: one
+        evaluation serves all.
         """
         terms = self.terms(joints) if terms is None else terms
         standing = self.standing(parameters, joints, terms)
@@ -290,9 +285,8 @@ class ErrorModel:
             jacobians[rows, :, 6:links] = by_link[..., 6:links]
             jacobians[rows, :, 6 * start : 6 * start + 6] = by_link[..., :6]
             jacobians[rows, :, 6 * end : 6 * end + 6] = by_link[..., links:]
-            jacobians[rows, :, self._geometry :] = (
-                by_joint[:, :, None] * terms[rows][:, None]
-            ).reshape(len(by_joint), 6, -1)
+            by_term = by_joint[:, :, None] * terms[rows][:, None]
+            jacobians[rows, :, self._geometry :] = by_term.reshape(len(by_joint), 6, -1)
         return poses, jacobians
 
 

@@ -20,11 +20,9 @@ BLOCK = 1000  # rows at once: more would take memory, and no less time
 
 
 def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes poses to others: translation [m] and turn [rad] along the axes of their frame.
+    """What takes poses (n, 4, 4) to others: (n, 6) [m, rad] along and about their frame's axes.
 
-    Args:
-        start: (n, 4, 4) poses.
-        end: (n, 4, 4) poses, for (n, 6), or (n, 3) positions, for the translations (n, 3) alone.
+    What takes them to positions (n, 3): the translations (n, 3) alone.
     """
     if end.ndim == 2:
         return end - start[:, :3, 3]

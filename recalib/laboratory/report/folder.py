@@ -113,7 +113,8 @@ def _rows(result: Results) -> Iterator[dict[str, Any]]:
     """For each row its error before and after, held out, and its weight."""
     validation, weights = result.validation, result.geometry.estimate.weights
     before, after = (
-        1e3 * validation.errors(BLOCKWISE, kind)[:, 0] for kind in (NOTHING, validation.chosen)
+        1e3 * validation.held_out[BLOCKWISE][kind].errors[:, 0]
+        for kind in (NOTHING, validation.chosen)
     )
     for row, weight in enumerate(weights):
         yield {

@@ -15,7 +15,7 @@ import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import UnsuitableRobot
-from recalib.files.xml import encoding
+from recalib.files.storage import encoding
 from recalib.identification.calibration import Calibration
 from recalib.nominal.descriptions import link_of, local_name, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
