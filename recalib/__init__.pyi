@@ -3,9 +3,9 @@
 from .damaged.damage import BaseShift as BaseShift
 from .damaged.damage import DamagedArm as DamagedArm
 from .damaged.damage import EncoderShift as EncoderShift
-from .damaged.damage import LinkBend as LinkBend
+from .damaged.bending import LinkBend as LinkBend
 from .damaged.damage import LinkShortening as LinkShortening
-from .damaged.damage import LinkTwist as LinkTwist
+from .damaged.bending import LinkTwist as LinkTwist
 from .damaged.damage import apply as apply
 from .damaged.disturbances import Disturbances as Disturbances
 from .damaged.disturbances import Noise as Noise

@@ -1,7 +1,6 @@
-"""Damages of a robot's geometry, alone or combined; `recalib.damaged.nongeometric` has more.
+"""Damages of a robot, alone or combined: moved as a whole, links shortened, encoders shifted.
 
-Those of section 7: it is moved as a whole, links are shortened, encoders shifted. And links that a
-collision bends or twists.
+These are the damages of section 7; `recalib.damaged.nongeometric` has more.
 """
 
 from collections.abc import Callable, Iterable
@@ -16,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from recalib.arrays import array_of
 from recalib.damaged.imperfections import Imperfection, Joint, Link
 from recalib.errors import InvalidSetting, check_kind, check_name
-from recalib.files.bounded import Amount, Direction, Length, SignedTurn
+from recalib.files.bounded import Amount, Length, SignedTurn
 from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot, link_end
@@ -53,9 +52,9 @@ class DamagedArm:
 
     @cached_property
     def chain(self) -> Chain:
-        """Once all damages are done, its kinematics at angles that encoders report.
+        """Its kinematics at angles that encoders report if nothing gives way.
 
-        Nothing gives way in it.
+        Once all damages are done.
         """
         return Chain.of(self.arm, self.offsets)
 
@@ -153,51 +152,6 @@ class EncoderShift(Damage, words=("encoder", "shift")):
 
     def apply(self, arm: Arm, damaged: DamagedArm) -> None:
         damaged.offsets[joint_index(arm, self.encoder)] += self.shift
-
-
-@dataclass(frozen=True)
-class LinkBend(Damage, words=("bend",)):
-    """A link bent in the middle of the straight line between its joints."""
-
-    link: Link
-    bend: SignedTurn
-    """Angle between the line's halves."""
-    towards: Direction = 0.0
-    """Where its outer half goes: the angle about the line from the axis that is most across it."""
-
-    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
-        end = end_of(arm, self.link, damaged)
-        line = _line(end.translation, self.link)
-        # rounded: of two axes that are equally far across, the first
-        across = np.eye(3)[np.abs(line).round(6).argmin()]
-        side = np.cross(line, across) / np.linalg.norm(np.cross(line, across))
-        axis = Rotation.from_rotvec(self.towards * line).apply(side)
-        turn = Rotation.from_rotvec(self.bend * axis).as_matrix()
-        half = end.translation / 2
-        end.translation = half + turn @ half
-        end.rotation = turn @ end.rotation
-
-
-@dataclass(frozen=True)
-class LinkTwist(Damage, words=("twist",)):
-    """A link twisted about the straight line between its joints."""
-
-    link: Link
-    twist: SignedTurn
-    """Angle by which its end is turned."""
-
-    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
-        end = end_of(arm, self.link, damaged)
-        line = _line(end.translation, self.link)
-        end.rotation = Rotation.from_rotvec(self.twist * line).as_matrix() @ end.rotation
-
-
-def _line(end: np.ndarray, link: str) -> np.ndarray:
-    """The direction (3,) of a link. Raises InvalidSetting: it has no length."""
-    length = np.linalg.norm(end)
-    if length < 1e-9:
-        raise InvalidSetting("link", link, "a link with a length")
-    return end / length
 
 
 def end_of(arm: Arm, link: str, damaged: DamagedArm) -> pin.SE3:

@@ -82,16 +82,17 @@ class Controller:
         self._knots = np.concatenate([grid * part for part in BOXES]), np.concatenate(solved)
 
     @cached_property
-    def nominal(self) -> tuple[Any, ...]:
-        """What compiled loops need to answer commands: the first arguments of `kernels.targets`.
+    def nominal(self) -> kernels.ControllerArrays:
+        """What compiled loops need to answer commands: the arm, its workspace, where they start.
 
-        Newton's method starts from a polynomial through the knots, made when it is first needed.
+        The start is a polynomial through the knots, which is made when it is first needed.
         """
         coordinates, angles = self._knots
         q, r = np.linalg.qr(monomials(coordinates, DEGREE))
         start = *factors(6, DEGREE), np.linalg.solve(r, q.T @ angles)
         limits = self.robot.lower, self.robot.upper
-        return *self._chain, *self.robot.workspace.region, *start, *limits
+        given: tuple[Any, ...] = *self._chain, *self.robot.workspace.region, *start, *limits
+        return kernels.ControllerArrays(*given)
 
     def solve(self, poses: np.ndarray) -> Targets:
         """Joint targets of the commanded poses (..., 4, 4), never raising."""
@@ -99,8 +100,7 @@ class Controller:
 
     def targets(self, commands: np.ndarray) -> Targets:
         """Joint targets of the commands, coordinates (..., 6), never raising."""
-        given: tuple[Any, ...] = *self.nominal, commands.reshape(-1, 6)
-        found = kernels.targets(*given)
+        found = kernels.targets(*self.nominal, commands.reshape(-1, 6))
         axes = commands.shape[:-1]
         return Targets(*(part.reshape(*axes, *part.shape[1:]) for part in found))
 
@@ -109,9 +109,11 @@ class Controller:
     ) -> np.ndarray:
         """The commands (run, move, 6) that yield the required joint angles.
 
-        Of a redundant arm there are many; those are meant which are found from its own answer to
-        commands nearby. Of joint angles (run, move, joint) [rad], `needed` gives those nearby that
-        are required.
+        Of a redundant arm there are many; those are meant which are found from its own answer.
+
+        Args:
+            commands: (run, move, 6) nearby.
+            needed: from joint angles (run, move, joint) [rad] to those nearby that are needed.
         """
         workspace, arm = self.robot.workspace, self.robot.arm
         for _ in range(ROUNDS if len(arm.joints) > 6 else 1):

@@ -47,16 +47,34 @@ class Region(NamedTuple):
 
 
 class Polynomial(NamedTuple):
-    """The polynomial of a pose from which inverse kinematics starts.
-
-    Attributes:
-        shorter, last: (F,) its monomials; see `recalib.numerics.monomials`.
-        weights: (F, n) of them, for joint angles [rad].
-    """
+    """Of `ControllerArrays`, the polynomial from which inverse kinematics starts."""
 
     shorter: np.ndarray
     last: np.ndarray
     weights: np.ndarray
+
+
+class ControllerArrays(NamedTuple):
+    """A controller: the nominal arm, its workspace, and where inverse kinematics starts.
+
+    Attributes:
+        placements, slides: of `Arms`.
+        centre, half_ranges, vectors: of `Region`.
+        shorter, last: (F,) the monomials of the start polynomial; see `recalib.numerics.monomials`.
+        weights: (F, n) of them, for joint angles [rad].
+        lower, upper: (n,) joint limits [rad].
+    """
+
+    placements: np.ndarray
+    slides: np.ndarray
+    centre: np.ndarray
+    half_ranges: np.ndarray
+    vectors: bool
+    shorter: np.ndarray
+    last: np.ndarray
+    weights: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
 
 
 @compiled
@@ -145,13 +163,9 @@ def targets(
 
     Also the errors (n,) of their poses [m, rad], and whether they lie within the limits (n,).
 
-    A call unpacks fields three times as fast as tuples, which is half of the time of few moves.
-
     Args:
-        placements, slides: of the nominal arm; see `Arms`.
-        centre, half_ranges, vectors: of its workspace; see `Region`.
-        shorter, last, weights: see `Polynomial`.
-        lower, upper: (joint,) joint limits [rad].
+        placements, ..., upper: the fields of `ControllerArrays`, one by one: a call unpacks them
+            three times as fast so, which is half of the time of few moves.
         commands: in coordinates.
     """
     arms, box = Arms(placements, slides), Region(centre, half_ranges, vectors)
