@@ -1,11 +1,11 @@
 """The public names and their modules; `recalib/__init__.py` imports a name when it is asked for."""
 
+from .damaged.bending import LinkBend as LinkBend
+from .damaged.bending import LinkTwist as LinkTwist
 from .damaged.damage import BaseShift as BaseShift
 from .damaged.damage import DamagedArm as DamagedArm
 from .damaged.damage import EncoderShift as EncoderShift
-from .damaged.bending import LinkBend as LinkBend
 from .damaged.damage import LinkShortening as LinkShortening
-from .damaged.bending import LinkTwist as LinkTwist
 from .damaged.damage import apply as apply
 from .damaged.disturbances import Disturbances as Disturbances
 from .damaged.disturbances import Noise as Noise
