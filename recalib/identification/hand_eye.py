@@ -243,12 +243,9 @@ def calibrate_hand_eye(sights: Sights) -> HandEye:
 def upended(flange: np.ndarray, board: np.ndarray) -> np.ndarray:
     """In which pictures (n,) a board is upside down that looks the same so, unlike in most others.
 
-    Both turn by equal angles from pose to pose, in either direction and on either side of the arm.
-    So each two pictures favour equal sides or different ones. None is upside down if that does not
-    explain the angles: then the poses are mistaken.
-
-    Args:
-        flange, board: poses (n, 4, 4).
+    Poses (n, 4, 4) of flange and board differ by equal angles, in either direction and on either
+    side of the arm. So each two pictures favour equal sides or different ones. None is upside down
+    if that does not explain the angles: then the poses are mistaken.
     """
     arm, shown = flange[:, :3, :3], board[:, :3, :3]
     ones, others = np.stack([arm, shown, shown * [-1, -1, 1]]), np.stack([arm, shown, shown])

@@ -126,8 +126,7 @@ class Board:
     @property
     def same_upside_down(self) -> bool:
         """Whether it looks the same after half a turn, which reverses the order of its points."""
-        sides = {CHESSBOARD: self.columns + self.rows, CIRCLES: self.rows}
-        return sides.get(self.kind, 1) % 2 == 0
+        return {CHESSBOARD: self.columns + self.rows, CIRCLES: self.rows}.get(self.kind, 1) % 2 == 0
 
     @property
     def modules(self) -> np.ndarray:

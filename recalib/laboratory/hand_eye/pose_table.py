@@ -196,15 +196,13 @@ def _by_headings(table: Table) -> Convention:
 
 def _headed(text: str, path: Path, way: Convention | None) -> str:
     """Numbers alone, a pose in a row or a matrix in three or four, as a table with headings."""
-    stripped = (line.strip(" \t\r,;[]()") for line in text.splitlines())
-    rows = [_BETWEEN.split(line) for line in stripped if line]
+    lines = (line.strip(" \t\r,;[]()") for line in text.splitlines())
+    rows = [_BETWEEN.split(line) for line in lines if line]
     if len(rows) > 1 and len(rows[0]) == 1:  # how many poses follow
         rows = rows[1:]
     if {len(row) for row in rows} == {4}:
-        whole = [0, 0, 0, 1] in ([*map(number_in, row)] for row in rows)
-        lines = 4 if whole or len(rows) % 3 else 3
-        if len(rows) % lines == 0:
-            rows = [[*chain(*rows[at : at + lines])] for at in range(0, len(rows), lines)]
+        high = 4 if any([*map(number_in, row)] == [0, 0, 0, 1] for row in rows) else 3
+        rows = [[*chain(*rows[first : first + high])] for first in range(0, len(rows), high)]
     if not rows:
         raise InvalidFile(path, "it is empty")
     if len({len(row) for row in rows}) > 1:
