@@ -21,8 +21,8 @@ from recalib.nominal import find_urdf
 from tests.conftest import ROOT, run
 from tests.laboratory.conftest import in_degrees, in_millimetres, read, write
 
-# the robot and the station of the examples, and tests/test_notebook.py
-ALONE = "ur10", "station", "notebook"
+# the robot and the station of the examples; tests/test_notebook.py; tests/vision has one
+ALONE = "ur10", "station", "notebook", "poses"
 EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py") if path.stem not in ALONE)
 FOR_STUDIES = "matplotlib", "pandas", "pydantic", "rerun", "snakemake"
 

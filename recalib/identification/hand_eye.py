@@ -39,6 +39,7 @@ FAR = 16.8  # squares of deviations: of 6 numbers, 1 % are farther off; they cou
 SETTLED = 0.01  # a change of weights
 FINEST, COARSEST = 1e-7, 1.0  # m, rad: no arm is as accurate, or as bad
 FOLDS = 30
+EQUAL = 0.05  # rad: angles that may be the same
 TURNS = 24  # about the only axis, to start from
 ONE_AXIS = 1.5  # deg: turns about a second axis that are smaller determine nothing
 
@@ -242,6 +243,24 @@ def calibrate_hand_eye(sights: Sights) -> HandEye:
         if np.abs(found.weights - before).max() < SETTLED:
             break
     return found
+
+
+def upended(flange: np.ndarray, board: np.ndarray) -> np.ndarray:
+    """In which pictures (n,) a board is upside down that looks the same so, unlike in most others.
+
+    Poses (n, 4, 4) of flange and board differ by equal angles, in either direction and on either
+    side of the arm. So each two pictures favour equal sides or different ones. None is upside down
+    if that does not explain the angles: then the poses are mistaken.
+    """
+    arm, shown = flange[:, :3, :3], board[:, :3, :3]
+    ones, others = np.stack([arm, shown, shown * [-1, -1, 1]]), np.stack([arm, shown, shown])
+    traces = np.einsum("snij,smij->snm", ones, others)
+    angles, same, turned = np.arccos(np.clip((traces - 1) / 2, -1, 1))
+    same, turned = np.abs(same - angles), np.abs(turned - angles)
+    side = np.linalg.eigh(turned - same)[1][:, -1] > 0
+    other: np.ndarray = side != (np.mean(side) > 0.5)
+    left = np.where(other[:, None] == other, same, turned)
+    return other & (np.median(left) < EQUAL)
 
 
 def _weighed(found: HandEye) -> HandEye:

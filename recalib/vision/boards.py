@@ -124,6 +124,11 @@ class Board:
         return grid[::-1].reshape(-1, 4, 2)
 
     @property
+    def same_upside_down(self) -> bool:
+        """Whether it looks the same after half a turn, which reverses the order of its points."""
+        return {CHESSBOARD: self.columns + self.rows, CIRCLES: self.rows}.get(self.kind, 1) % 2 == 0
+
+    @property
     def modules(self) -> np.ndarray:
         """Which modules (down, across) are black, if gaps are as wide as two modules."""
         pitch = self.alphabet.markerSize + 2 * BORDER + WHITE

@@ -78,6 +78,10 @@ def find_corners(board: Board, picture: np.ndarray) -> Corners:
     if board.kind in PLAIN:
         numbers, pixels = _pattern(board, picture)
         if not len(numbers):
+            squares = replace(board, columns=board.columns + 1, rows=board.rows + 1)
+            if board.kind == CHESSBOARD and len(_chessboard(squares, picture)[0]):
+                found = f"it shows {squares.columns} x {squares.rows} squares"
+                raise Unusable(f"{found}; columns and rows count squares, not corners")
             what = "corners of the chessboard" if board.kind == CHESSBOARD else "circles"
             blur = _softness(picture)
             why = f"; it is blurred, by {blur:.1f} px or more" if blur > SOFT else ""
@@ -237,7 +241,7 @@ def _chessboard(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarr
     across, down = grid[0, -1] - grid[0, 0], grid[-1, 0] - grid[0, 0]
     if across[0] * down[1] - across[1] * down[0] < 0:  # x to the right, y down
         grid = grid[::-1]
-    if (columns + rows) % 2:
+    if not board.same_upside_down:
         middles = (grid[:2, at : at + 2].mean(axis=(0, 1)).round().astype(int) for at in (0, 1))
         first, second = (np.median(picture[y - 1 : y + 2, x - 1 : x + 2]) for x, y in middles)
         upside_down = first > second

@@ -144,6 +144,13 @@ def test_a_chessboard_is_known_upside_down(columns, rows, half_turn):
     assert np.abs(found - true).max() < 5e-3
 
 
+@pytest.mark.parametrize(("columns", "rows"), [(9, 6), (9, 7)])
+def test_corners_that_are_counted_as_squares_are_named(columns, rows):
+    picture = chessboard(Board("chessboard", columns, rows, 0.025)).picture(POSES[0])
+    with pytest.raises(Unusable, match=f"it shows {columns} x {rows} squares; columns and rows"):
+        find_corners(Board("chessboard", columns - 1, rows - 1, 0.025), picture)
+
+
 @pytest.mark.parametrize("name", SHEETS)
 def test_a_mirrored_print_of_markers_is_named(name):
     board, sheet = SHEETS[name]

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.identification.hand_eye import HandEye, Sights, calibrate_hand_eye, held_out
+from recalib.identification.hand_eye import HandEye, Sights, calibrate_hand_eye, held_out, upended
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.calibrate import Progress
 from recalib.laboratory.hand_eye.mistakes import FEWEST, WRONG, check_fit, check_motion
@@ -76,6 +76,13 @@ def calibrate_poses(
         pictures, by_lens = shown, (shown.given is None, False)
         flange = flange[np.array([picture.row - 1 for picture in shown.used])]
         views = [view for _, view in views_of(shown.board, shown.used)]
+        if shown.board.same_upside_down:
+            last = len(shown.board.points) - 1
+            turned = upended(flange.poses, np.array([picture.pose for picture in shown.used]))
+            views = [
+                replace(view, numbers=np.where(half, last - view.numbers, view.numbers))
+                for view, half in zip(views, turned, strict=True)
+            ]
         sightings = [sighting(shown.board, shown.lens, view, *by_lens) for view in views]
         board, optics = optics_of(shown.lens, sightings)
     sights = Sights(flange.poses, board, in_hand, optics, height)

@@ -170,13 +170,14 @@ def read_poses(
 
 
 def _headed(text: str, path: Path, way: Convention | None) -> str:
-    """Numbers alone, a pose in a row or a matrix in four, as a table with headings."""
+    """Numbers alone, a pose in a row or a matrix in three or four, as a table with headings."""
     lines = (line.strip(" \t\r,;[]()") for line in text.splitlines())
     rows = [_BETWEEN.split(line) for line in lines if line]
     if len(rows) > 1 and len(rows[0]) == 1:  # how many poses follow
         rows = rows[1:]
-    if {len(row) for row in rows} == {4} and len(rows) % 4 == 0:
-        rows = [[*chain(*rows[first : first + 4])] for first in range(0, len(rows), 4)]
+    if {len(row) for row in rows} == {4}:
+        high = 4 if any([*map(number_in, row)] == [0, 0, 0, 1] for row in rows) else 3
+        rows = [[*chain(*rows[first : first + high])] for first in range(0, len(rows), high)]
     if not rows:
         raise InvalidFile(path, "it is empty")
     if len({len(row) for row in rows}) > 1:
@@ -188,7 +189,7 @@ def _headed(text: str, path: Path, way: Convention | None) -> str:
         raise InvalidFile(path, f"{found}; is it transposed?")
     if count not in (12, 16):
         if way is None:
-            raise InvalidFile(path, "it has no headings; try: --convention, such as ur or kuka")
+            raise InvalidFile(path, "it has no headings; try: --convention or --target-convention")
         headings = [*POSITIONS.headings, *way.headings]
         begins = [number_in(row[0]) for row in rows]
         if count == len(headings) + 1 and (np.diff(begins) >= 0).all():
