@@ -28,7 +28,7 @@ def doubts(result: Results) -> list[str]:
     """Warnings, the gravest first."""
     ends = [words for one, words in result.directions if not one.lasting]
     gain = None if result.mistake else result.wrong_gain
-    poses = result.arm.forward(result.data.observations.joints)
+    joints = result.data.observations.joints
     lines = render(
         "doubts.txt.j2",
         result=result,
@@ -36,7 +36,7 @@ def doubts(result: Results) -> list[str]:
         gain=gain and gain_in_words(gain, result.arm),
         outvoted=[*_outvoted(result)],
         worn=_worn(result),
-        axes=turned_axes(poses) if result.unseen else (),
+        axes=turned_axes(result.arm.forward(joints)) if result.unseen else (),
         open_here=sorted(ends, key=lambda words: not any(end in words for end in ENDS)),
         resized=[*_resized(result)],
         contradicted=_contradicted(result),
