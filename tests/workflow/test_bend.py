@@ -61,7 +61,10 @@ def test_a_study_without_a_file_is_refused(project):
     ("text", "message"),
     [
         ("# nothing yet\n", "1:1: no configuration; expected: keys with their values"),
-        ("robot: [ur5\n", "2:1: no YAML: expected ',' or ']', but got '<stream end>'"),
+        (
+            "robot: [ur5\n",
+            "2:1: no YAML: expected ',' or ']', but got '<stream end>' in what begins in line 1",
+        ),
     ],
 )
 def test_a_file_that_snakemake_cannot_read_is_named(text, message, project):
