@@ -86,13 +86,7 @@ class HierarchicalLearner:
         """
         desired = array_of("desired", desired, (self._runs, "n", 6))
         self._settle()
-        run, (k, l) = np.arange(self._runs)[:, None], self.nets.winner(desired)
-        offsets = desired - self.nets.centres[k, l]
-        commands = self.cells.theta[run, :, k, l].reshape(desired.shape)
-        jacobians = self.cells.jacobian[run, :, k, l].reshape(*desired.shape, 6)
-        for column in range(6):  # added in the same order as by `kernels.respond`
-            commands += jacobians[..., column] * offsets[..., [column]]
-        return commands
+        return kernels.commands(tuple(self.cells), np.ascontiguousarray(desired))
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.

@@ -78,6 +78,38 @@ def nearest(point: np.ndarray, centres: np.ndarray) -> int:
 
 
 @compiled
+def nearest_of(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    """Index (n,) of the nearest of the centres (cells, d) to each of the points (n, d)."""
+    found = np.empty(len(points), dtype=np.int64)
+    for index in range(len(points)):
+        found[index] = nearest(points[index], centres)
+    return found
+
+
+@compiled
+def commands(plain: tuple[np.ndarray, ...], desired: np.ndarray) -> np.ndarray:
+    """Pose commands (run, pose, 6) for the desired poses (run, pose, 6), by (1).
+
+    No update may wait.
+    """
+    cells = Cells(*plain)
+    found, outputs = np.empty(desired.shape), cells.theta.shape[-1]
+    for run in range(desired.shape[0]):
+        for pose in range(desired.shape[1]):
+            u = desired[run, pose]
+            k, l = nearest(u[:3], cells.w_k), nearest(u[3:], cells.w_kl)
+            for row in range(6):
+                each, output = row // outputs, row % outputs
+                total = cells.theta[run, each, k, l, output]
+                for column in range(6):
+                    centre = cells.w_k[k, column] if column < 3 else cells.w_kl[l, column - 3]
+                    slope = cells.jacobian[run, each, k, l, 6 * output + column]
+                    total += slope * (u[column] - centre)
+                found[run, pose, row] = total
+    return found
+
+
+@compiled
 def respond(
     plain: tuple[np.ndarray, ...],
     waiting: int,
@@ -137,7 +169,8 @@ def respond(
 def corrections(jacobian: np.ndarray, desired: np.ndarray, achieved: np.ndarray) -> np.ndarray:
     """A_kl (u - u') (run, 6): the second movement of an iteration, and the increment of (6).
 
-    The pose u' (run, 1, 6) is what the first one achieved.
+    Args:
+        achieved: (run, 1, 6) the pose u' of the first.
     """
     found = np.zeros(desired.shape)
     for run in range(len(desired)):
@@ -265,3 +298,22 @@ def draw(held: np.ndarray, remaining: np.ndarray, drawn: np.ndarray) -> None:
         rest = remaining[cell]
         for number in range(drawn.shape[1]):
             cells[cell, number] = cells[cell, number] * rest + drawn[cell, number]
+
+
+@compiled
+def propagate(
+    theta: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray, star: np.ndarray, increments: bool
+) -> None:
+    """Move theta (run, K, L, o) by increments, (7), or draw it towards values, (4).
+
+    Args:
+        g_k (run, K), g_kl (run, L): neighbourhoods, one of them times the learning rate.
+        star: (run, o) what is propagated.
+    """
+    for run, k, l in np.ndindex(theta.shape[:3]):
+        weight = g_k[run, k] * g_kl[run, l]
+        for output in range(star.shape[1]):
+            change = star[run, output]
+            if not increments:
+                change -= theta[run, k, l, output]
+            theta[run, k, l, output] += weight * change

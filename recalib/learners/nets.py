@@ -8,6 +8,7 @@ from itertools import product
 
 import numpy as np
 
+from recalib.learners import kernels
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 # "A regular grid covering" the workspace (section 3): along a coordinate of [-1, 1], the middles of
@@ -19,13 +20,18 @@ CENTRES = {
 
 
 def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
-    """Centres (cells, d), one of `CENTRES`, in [-1, 1]^d: so many along each coordinate, (d,)."""
+    """Centres (cells, d) of cells in [-1, 1]^d, so many along each coordinate: shape (d,).
+
+    Args:
+        centres: which, of `CENTRES`.
+    """
     return np.array(list(product(*map(CENTRES[centres], shape))))
 
 
 def nearest(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Index (...) of the nearest of the centres (cells, d) to each of the points (..., d)."""
-    return np.square(points[..., None, :] - centres).sum(axis=-1).argmin(axis=-1)
+    found = kernels.nearest_of(points.reshape(-1, points.shape[-1]), centres)
+    return found.reshape(points.shape[:-1])
 
 
 class Nets:

@@ -9,6 +9,7 @@ from scipy.special import softmax
 
 from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_kind
+from recalib.learners import kernels
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
@@ -87,11 +88,11 @@ class RadialLearner:
         widths = fall(*self._widths, fraction, self.rules.width_power)
         for each, outputs in enumerate(self.rules.maps.values()):
             g_k, g_kl = self.nets.neighbourhood(k, l, *widths[:, each].T)
-            change = increment[:, None, None, outputs]
+            star = increment[:, outputs]
             if not self.rules.theta_increments:
-                change = winner[:, None, None, outputs] + change - self.theta[..., outputs]
-            weights = (rate[:, None] * g_k)[:, :, None] * g_kl[:, None]
-            self.theta[..., outputs] += weights[..., None] * change
+                star = winner[:, outputs] + star
+            theta = self.theta[..., outputs]
+            kernels.propagate(theta, rate[:, None] * g_k, g_kl, star, self.rules.theta_increments)
 
     def _shares(self, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """phi over its sum (run, pose, cell), in one net, for points (run, pose, 3)."""
