@@ -164,7 +164,8 @@ def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataS
         views = [sighting(session.board, lens, view, *kind) for view in session.views]
         found, part = optics_of(lens, views)
         own = [numbers["board", session.board_name]]
-        own += [numbers["camera", session.camera]] * session.fitted
+        if session.fitted:
+            own.append(numbers["camera", session.camera])
         place = np.eye(len(kinds))[np.concatenate(own)]  # its columns among all
         slopes, gradient = part.slopes @ place, part.gradient @ place
         poses.append(found)
