@@ -91,7 +91,7 @@ class Sights:
         """
         middle = Rotation.from_matrix(self.flange[:, :3, :3]).mean()
         turns = Rotation.from_matrix(self.flange[:, :3, :3] @ middle.as_matrix().T).as_rotvec()
-        axes = np.linalg.svd(turns)[2]
+        axes = np.linalg.svd(turns, full_matrices=len(turns) < 3)[2]
         return np.degrees(np.ptp(turns @ axes.T, axis=0)), axes
 
 
@@ -288,7 +288,7 @@ def _about_one_axis(
     """The camera's axis of rotation is the arm's; the turn about it is tried all around."""
     pairs = [poses[:, :3, :3] @ poses[0, :3, :3].T for poses in (between, board)]
     arm, camera = (Rotation.from_matrix(turns).as_rotvec() for turns in pairs)
-    across, axis = nearest_rotation(arm.T @ camera), np.linalg.svd(arm)[2][0]
+    across, axis = nearest_rotation(arm.T @ camera), np.linalg.svd(arm, False)[2][0]
     for angle in 2 * np.pi * np.arange(TURNS) / TURNS:
         turn = Rotation.from_rotvec(angle * axis).as_matrix() @ across
         turns = between[:, :3, :3].swapaxes(1, 2) @ turn @ board[:, :3, :3]

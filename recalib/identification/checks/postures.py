@@ -74,7 +74,7 @@ def outside_of(known: np.ndarray, poses: np.ndarray) -> np.ndarray:
 def turned_axes(poses: np.ndarray) -> np.ndarray:
     """The axes (k, 3) in the frame of poses (n, 4, 4) about which these turned."""
     turns = _turns(poses, nearest_rotation(poses[:, :3, :3].sum(axis=0)))
-    axes = np.linalg.svd(turns - turns.mean(axis=0)).Vh
+    axes = _principal_axes(turns)
     return axes[np.ptp(turns @ axes.T, axis=0) > TURNED]
 
 
@@ -83,9 +83,15 @@ def _turns(poses: np.ndarray, mean: np.ndarray) -> np.ndarray:
     return Rotation.from_matrix(poses[:, :3, :3] @ mean.T).as_rotvec()
 
 
+def _principal_axes(points: np.ndarray) -> np.ndarray:
+    """The axes (3, 3) along which points (n, 3) spread, from most to least."""
+    # the full matrices of many points would be huge; those of fewer than three lack axes otherwise
+    return np.linalg.svd(points - points.mean(axis=0), full_matrices=len(points) < 3).Vh
+
+
 def _beyond(known: np.ndarray, others: np.ndarray, least: float) -> np.ndarray:
     """How far others (n, 3) are beyond the ranges of the known (m, 3) along their axes."""
-    axes = np.linalg.svd(known - known.mean(axis=0), full_matrices=True).Vh
+    axes = _principal_axes(known)
     own, along = known @ axes.T, others @ axes.T
     low, high = own.min(axis=0), own.max(axis=0)
     beyond = np.maximum(low - along, along - high)
