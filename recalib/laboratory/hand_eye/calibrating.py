@@ -1,6 +1,6 @@
 """Hand-eye calibration from flange poses and pictures or poses of a board, and its files."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
@@ -8,9 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile
+from recalib.identification.checks.moved import moved_ends
+from recalib.identification.checks.sequence import Fault
 from recalib.identification.hand_eye import HandEye, Sights, calibrate_hand_eye, held_out
 from recalib.identification.model.optics import BOARD
-from recalib.laboratory.hand_eye.mistakes import FEWEST, WRONG, check_fit, check_motion
+from recalib.laboratory.hand_eye.mistakes import (
+    FEWEST,
+    WRONG,
+    check_fit,
+    check_motion,
+    exchange_in,
+)
 from recalib.laboratory.hand_eye.pose_table import PoseTable
 from recalib.laboratory.pictures.observe import observe, pictures_in
 from recalib.laboratory.pictures.observed import LENS, PICTURE, SETUP, Observed, views_of
@@ -35,12 +43,14 @@ class HandEyeResult:
         table: the name of the table of flange poses.
         residuals: (n, 6) m, rad, of each pose by a calibration without it.
         shown: what pictures show; None without any.
+        faults: what moved amid the poses.
     """
 
     found: HandEye
     table: str
     residuals: np.ndarray
     shown: Observed | None
+    faults: Sequence[Fault] = ()
 
     @property
     def good(self) -> bool:
@@ -90,6 +100,21 @@ class HandEyeResult:
         if self.shown is None:
             return [f"row {row + 1}" for row in range(len(self.residuals))]
         return [picture.name for picture in self.shown.used]
+
+    @property
+    def doubts(self) -> Iterator[str]:
+        """Warnings, each without its full stop."""
+        rows, in_hand = [*range(len(self.residuals))], self.found.sights.in_hand
+        if self.shown is not None:
+            rows = [picture.row - 1 for picture in self.shown.used]
+        stands, moves = ("the camera", "the board")[:: -1 if in_hand else 1]
+        for fault in self.faults:
+            own = replace(fault, row=rows[fault.row])
+            words = {"stands": stands, "moves": moves, "rows": rows[-1] + 1}
+            none = {"folder": None, "sockets": False, "timed": False}
+            yield render("fault.txt.j2", fault=own, **words, **none).strip()
+        yield from filter(None, (exchange_in(self.found, self.shown is None),))
+        yield from filter(None, (self.shown and self.shown.doubt,))
 
     def summary(self) -> str:
         """A page of text."""
@@ -189,6 +214,7 @@ def calibrate_poses(
     check_motion(sights)
     on_progress("camera and board")
     found = calibrate_hand_eye(sights)
-    check_fit(found, flange, targets)
+    faults = moved_ends(found)
+    check_fit(found, flange, targets, bool(faults))
     on_progress("errors of poses that are held out")
-    return HandEyeResult(found, flange.table.path.name, held_out(found), pictures)
+    return HandEyeResult(found, flange.table.path.name, held_out(found), pictures, faults)

@@ -28,6 +28,8 @@ OPEN = 0.05, np.radians(5)  # m, rad: a deviation as large is no result
 LOOSE = 1e-2  # a singular value so small, over the largest, leaves a direction open
 OPEN_SIZE = 0.1  # of such a direction: then it is one of the size
 SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it has to be off
+HELD, LONGER = 0.3, 2.0  # m; times as far: what is on a flange is seldom farther from it
+BEHIND = -0.5  # along the camera's z axis, of a distance
 TILT = "try: poses that are tilted by 20 deg or more, about two axes"
 
 
@@ -60,21 +62,24 @@ def check_motion(sights: Sights) -> None:
         )
 
 
-def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> None:
+def check_fit(
+    found: HandEye, flange: PoseTable, targets: PoseTable | None, moved: bool = False
+) -> None:
     """Raise Mistaken if poses are likely wrong, or leave a place uncertain by decimetres.
 
     Args:
+        moved: whether it is known why they do not fit: an end of them moved.
         flange, targets: the tables that they are from; None if pictures show the target.
     """
     remaining = found.misfit
     fits = remaining < WRONG
     sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
     scale, deviation, left = min(sizes, key=lambda size: size[2])
-    if fits or (left < EXPLAINED * remaining and deviation < SIZE):
+    if not moved and (fits or (left < EXPLAINED * remaining and deviation < SIZE)):
         _check_size(scale, deviation)
     if not fits:
         _check_height(found.sights, remaining)
-        _check_readings(found.sights, flange, targets, remaining)
+        _check_readings(found.sights, flange, targets, remaining, moved)
     for part, name in enumerate(("camera", "board")):
         position, turn = found.deviations(part)
         if position > OPEN[0] or turn > OPEN[1]:
@@ -137,9 +142,9 @@ def _check_size(scale: float, deviation: float) -> None:
 
 
 def _check_readings(
-    sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
+    sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float, moved: bool
 ) -> None:
-    """Raise Mistaken if poses that are read otherwise fit much better."""
+    """Raise Mistaken if poses that are read otherwise fit much better, or nothing says why not."""
 
     def misfit(sights: Sights) -> float:
         return min(start.misfit for start in starts(sights))
@@ -152,11 +157,41 @@ def _check_readings(
     if best < EXPLAINED * misfit(sights):
         but = f"but they do ({1e3 * best:.3g} mm) if {words}"
         raise Mistaken(f"the poses do not fit as they are read {remain}, {but}")
-    if remaining > HOPELESS:
+    if remaining > HOPELESS and not moved:
         raise Mistaken(
             f"the poses do not fit in any direction and convention {remain}; are rows and"
             " pictures in the same order?"
         )
+
+
+def exchange_in(found: HandEye, by_table: bool) -> str | None:
+    """Why two mistakes are likely that fit together, as both tables inverted; None if they are not.
+
+    They exchange camera and board, or what is on the flange and what is in the base.
+
+    Args:
+        by_table: whether a table has the board's poses; pictures have them in one direction.
+    """
+    in_hand, board = found.sights.in_hand, found.sights.board[:, :3, 3]
+    names, ends = ("camera", "board"), (found.camera, found.board)
+    on_flange, in_base = (
+        float(np.linalg.norm(pose[:3, 3])) for pose in ends[:: 1 if in_hand else -1]
+    )
+    held, other = names[:: 1 if in_hand else -1]
+    far = on_flange > max(HELD, LONGER * in_base)
+    behind = np.median(board[:, 2] / np.linalg.norm(board, axis=1)) < BEHIND
+    side = f"--camera {'fixed' if in_hand else 'hand'}"
+    if far:
+        tries = ["--inverse flange targets"] * by_table + [f"--inverse flange and {side}"]
+        return (
+            f"the {held} would be {1e3 * on_flange:.0f} mm from the flange, and the {other}"
+            f" {1e3 * in_base:.0f} mm from the base's origin; if they are not, try: "
+            f"{' or '.join(tries[: 1 if behind else 2])}"
+        )
+    if behind:
+        found_at = "the board would be behind the camera, whose z axis points ahead"
+        return f"{found_at}; if it does, try: --inverse targets and {side}"
+    return None
 
 
 def _others(

@@ -1,0 +1,108 @@
+"""A camera, a board or a flange's frame that moved amid the rows of a hand-eye calibration.
+
+It is looked for as in `sequence`, but without a model of the arm, whose errors change slowly with
+its pose, and so with the rows of a path. So what is found is undone, which shows the noise beside
+it. Next to errors of the flange that are polynomials of second degree in its pose, and as large as
+that noise, it has to be plain, too, by as many rows as there would be if those that follow each
+other were not alike.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.identification.checks.sequence import (
+    ENDS,
+    JUMP,
+    MOST,
+    SHARE,
+    SLIP,
+    Candidate,
+    Fault,
+    Unexplained,
+)
+from recalib.identification.hand_eye import (
+    CAMERA,
+    FINEST,
+    TARGET,
+    HandEye,
+    LinearHandEye,
+    Sights,
+    calibrate_hand_eye,
+)
+from recalib.identification.model.linearisation import displaced
+
+Found = tuple[float, int, np.ndarray, slice]  # share, row, motion (6,), and of which end
+
+
+def moved_ends(found: HandEye) -> list[Fault]:
+    """Jumps of what is next to the arm, or slips of what is on the flange."""
+    faults: list[Fault] = []
+    while len(faults) < MOST:
+        share, row, by, end = _plainest(found)
+        if share < SHARE:
+            break
+        sights, found = found.sights, calibrate_hand_eye(_undone(found, row, by, end))
+        residuals = _whitened(found)[0]
+        alike = max(0.0, np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2))
+        share, row, by, end = _plainest(replace(found, sights=sights), alike)
+        if share < SHARE:
+            break
+        kind = SLIP if sights.in_hand == (end == CAMERA) else JUMP
+        size, turn = np.linalg.norm(by.reshape(2, 3), axis=1)
+        faults.append(Fault(kind, float(size), row, float(turn)))
+    return faults
+
+
+def _whitened(found: HandEye) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Weighted residuals (n, 6), and slopes by parameters and by the flange, all over noise."""
+    linear = LinearHandEye(found)
+    roots = np.linalg.cholesky(linear.precisions).swapaxes(1, 2)
+    roots = roots * np.sqrt(found.weights)[:, None, None]
+    residuals = np.einsum("nij,nj->ni", roots, linear.residuals)
+    by_flange = roots @ linear.by_flange * np.repeat(found.accuracy, 3)
+    return residuals, roots @ linear.slopes, by_flange
+
+
+def _plainest(found: HandEye, alike: float | None = None) -> Found:
+    """The plainest motion of camera or board.
+
+    Args:
+        alike: the correlation of each row with the next; None to try without errors of the flange.
+    """
+    residuals, slopes, by_flange = _whitened(found)
+    corners, rows = found.sights.corners, np.arange(len(residuals))
+    known = corners.information.sum(axis=0) + np.diag(corners.deviations**-2.0)
+    optics = slopes[..., TARGET.stop :] @ np.linalg.inv(np.linalg.cholesky(known)).T
+    others, each = [slopes[..., : TARGET.stop], optics], 1.0
+    if alike is not None:
+        by_pose = by_flange[..., None] * _polynomials(found.sights.flange)[:, None, None]
+        others, each = [*others, by_pose.reshape(len(rows), 6, -1)], (1 + alike) / (1 - alike)
+    rest = Unexplained(residuals, np.concatenate(others, axis=2), each)
+    ends = (CAMERA, TARGET)
+    tried = [(*rest.plainest(Candidate("", rows, slopes[..., end], ENDS)), end) for end in ends]
+    return max(tried, key=lambda one: one[0])
+
+
+def _polynomials(flange: np.ndarray) -> np.ndarray:
+    """Of first and second degree (n, 27) in a flange's poses (n, 4, 4), over their deviations."""
+    turns = Rotation.from_matrix(flange[:, :3, :3])
+    turns = (turns * turns.mean().inv()).as_rotvec()
+    numbers = np.concatenate([flange[:, :3, 3], turns], axis=1)
+    numbers -= numbers.mean(axis=0)
+    numbers /= np.maximum(numbers.std(axis=0), FINEST)
+    one, other = np.triu_indices(6)
+    return np.concatenate([numbers, numbers[:, one] * numbers[:, other]], axis=1)
+
+
+def _undone(found: HandEye, row: int, by: np.ndarray, end: slice) -> Sights:
+    """The sights as if an end had not moved from a row on: the flange did."""
+    sights, between = found.sights, found.sights.between.copy()
+    if end == CAMERA:
+        back = found.camera @ np.linalg.inv(displaced(found.camera, by))
+        between[row:] = back @ between[row:]
+    else:
+        back = displaced(found.board, by) @ np.linalg.inv(found.board)
+        between[row:] = between[row:] @ back
+    return replace(sights, flange=np.linalg.inv(between) if sights.in_hand else between)
