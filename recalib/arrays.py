@@ -34,6 +34,15 @@ def array_of(name: str, given: ArrayLike, *shapes: Shape) -> np.ndarray:
     return array.astype(float)
 
 
+def ending(name: str, given: ArrayLike, *last: int) -> np.ndarray:
+    """An array with these last axes, after any others. Raises InvalidSetting."""
+    array = np.asarray(given)
+    if array.shape[-len(last) :] != last:
+        axes = ", ".join(map(str, ("...", *last)))
+        raise InvalidSetting(name, f"of shape {array.shape}", f"an array of shape ({axes})")
+    return array
+
+
 def check_rotations(name: str, poses: np.ndarray) -> None:
     """Raise InvalidSetting unless poses (..., 4, 4) have rotations, and 0, 0, 0, 1 below."""
     turns, rows = poses[..., :3, :3], poses[..., 3, :]

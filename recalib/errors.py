@@ -1,6 +1,7 @@
 """The exceptions of this library: attributes hold the facts, messages say what was expected."""
 
 from collections.abc import Iterable
+from numbers import Integral
 from os import PathLike, fspath
 from typing import Any
 
@@ -37,6 +38,19 @@ class InvalidSetting(RecalibError):
         self.key, self.value, self.valid = key, value, valid
         found = "missing" if value is None else repr(value)
         super().__init__(f"{key} is {found}; expected: {valid}")
+
+
+def check_kind(name: str, given: object, *kinds: type) -> None:
+    """Raise InvalidSetting unless an argument is an instance of one of these classes."""
+    if not isinstance(given, kinds):
+        valid = " or ".join(kind.__name__ for kind in kinds)
+        raise InvalidSetting(name, type(given).__name__, f"an instance of {valid}")
+
+
+def check_runs(runs: object) -> None:
+    """Raise InvalidSetting unless it is a number of runs."""
+    if not isinstance(runs, Integral) or int(runs) < 1:
+        raise InvalidSetting("runs", runs, "a whole number, at least 1")
 
 
 class BadMeasurement(RecalibError):

@@ -9,6 +9,8 @@ import shutil
 import subprocess
 import sys
 import tarfile
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -86,6 +88,91 @@ def test_an_example_needs_the_public_names_alone(path):
             assert {alias.name for alias in node.names} <= {*recalib.__all__}
         if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "recalib":
             assert node.attr in recalib.__all__
+
+
+def wrong_calls() -> dict[str, Callable[[], object]]:
+    """Calls with an argument of another kind, shape or size, by their name."""
+    urdf = find_urdf("ur10_robot.urdf")
+    home = {"shoulder_lift_joint": -1.4, "elbow_joint": 2.1, "wrist_1_joint": -2.9}
+    home |= {"shoulder_pan_joint": 0.0, "wrist_2_joint": -1.57, "wrist_3_joint": 0.0}
+    robot = recalib.load_robot(urdf, "tool0", home, [0.3] * 3, [0.6] * 3)
+    controller, pair, rules = recalib.Controller(robot), (1.0, 1.0), recalib.IMPROVED
+    good = {"initial_width": 2.0, "initial_rate": 0.9, "final_rate": 0.5}
+    good["final_widths"] = {"position": pair, "orientation": pair}
+    schedule = recalib.Schedule(**good)
+    learner = recalib.HierarchicalLearner(rules, schedule)
+    plant = recalib.Plant(controller, recalib.apply(robot, []))
+    poses, joints = np.zeros((1, 2, 6)), np.zeros((3, 6))
+    arrays = recalib.Observations(joints, joints[:, :3])
+    postures = np.random.default_rng(0).uniform(-1, 1, (12, 6)) + robot.home
+    measured = recalib.Observations(postures, robot.arm.forward(postures))
+    found = recalib.GeometricLearner.identify(robot.arm, measured)
+    others = {"a string": "2", "nothing": None, "words": ["a", "b"], "nan": np.nan, "zero": 0}
+    calls = {
+        f"a schedule whose {key} is {name}": partial(recalib.Schedule, **good | {key: value})
+        for key in good
+        for name, value in others.items()
+    }
+    for name, other in {"nothing": None, "an arm": robot.arm, "a number": 3}.items():
+        calls |= {
+            f"a controller of {name}": partial(recalib.Controller, other),
+            f"a plant behind {name}": partial(recalib.Plant, other, robot.arm),
+            f"{name} for rules": partial(recalib.HierarchicalLearner, other, schedule),
+            f"{name} for rules of units": partial(recalib.RadialLearner, other, schedule),
+            f"{name} for a schedule": partial(recalib.HierarchicalLearner, rules, other),
+            f"a learner behind {name}": partial(recalib.HybridLearner, other),
+            f"{name} observed": partial(recalib.HybridLearner.identify, robot.arm, other),
+            f"{name} trained": partial(recalib.train, plant, other, poses, poses, [1]),
+            f"{name} that moves": partial(recalib.ExternalRobot, robot.workspace, other),
+            f"{name} as damage": partial(recalib.apply, robot, [other]),
+            f"{name} saved": partial(recalib.save, Path("never.npz"), learner, other),
+            f"{name} loaded": partial(recalib.load, Path("never.npz"), other),
+            f"a workspace about {name}": partial(recalib.Workspace, other, np.ones(6)),
+            f"a workspace as large as {name}": partial(recalib.Workspace, np.eye(4), other),
+            f"noise of {name}": partial(recalib.Noise, other),
+            f"rows of {name}": partial(recalib.arm_of_table, other),
+            f"gains of {name}": partial(recalib.information_gains, other, joints),
+            f"frames from {name}": partial(recalib.initial_frames, robot.arm, other),
+        }
+    return calls | {
+        "no run": partial(recalib.GaussianProcessLearner, runs=0),
+        "half a run": partial(recalib.PolynomialLearner, 1, runs=0.5),
+        "a robot identified": partial(recalib.HybridLearner.identify, robot, arrays),
+        "a shift in words": partial(recalib.EncoderShift, "elbow_joint", "3 deg"),
+        "no shift": partial(recalib.EncoderShift, "elbow_joint", None),
+        "joints of another arm": partial(recalib.information_gains, found, joints[:, :5]),
+        "one posture for many": partial(recalib.information_gains, found, joints[0]),
+        "the learner before the plant": partial(recalib.train, learner, plant, poses, poses, [1]),
+        "a damage that is no list": partial(recalib.apply, robot, recalib.Noise()),
+        "one pose for many": partial(controller.inverse, np.eye(4)),
+        "five coordinates": partial(robot.workspace.to_poses, np.zeros(5)),
+        "a point for a pose": partial(recalib.position_error, np.zeros(3), np.zeros(3)),
+        "a mirrored workspace": partial(recalib.Workspace, np.eye(4), -np.ones(6)),
+        "half a cell": partial(recalib.Rules, *[True] * 4, supernet=(1.5, 3, 3)),
+        "a word for a switch": partial(recalib.Rules, "no", True, True, True),
+        "a narrow field": partial(recalib.RadialLearner, rules, schedule, -1.0),
+        "a row too few": partial(recalib.Observations, joints, joints[:2, :3]),
+        "rates of two runs for three": partial(
+            recalib.HierarchicalLearner,
+            rules,
+            recalib.Schedule(**good | {"initial_rate": np.array([0.9, 0.8])}),
+            runs=3,
+        ),
+        "frames of the wrong arm": partial(recalib.initial_frames, robot, arrays),
+    }
+
+
+def is_refused(call: Callable[[], object]) -> bool:
+    """Whether a call is refused with what was expected."""
+    try:
+        call()
+    except recalib.RecalibError as error:
+        return "expected: " in str(error)
+    return False
+
+
+def test_a_wrong_call_is_refused_with_what_was_expected():
+    assert not [name for name, call in wrong_calls().items() if not is_refused(call)]
 
 
 MISUSE = """

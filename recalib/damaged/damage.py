@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.arrays import array_of
 from recalib.damaged.imperfections import Imperfection, Joint, Link
-from recalib.errors import InvalidSetting, UnknownName
+from recalib.errors import InvalidSetting, UnknownName, check_kind
 from recalib.files.bounded import Amount, Length, SignedTurn
 from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
@@ -178,10 +178,14 @@ def joint_index(arm: Arm, joint: str) -> int:
 def apply(nominal: Robot | Arm, damages: Iterable[Damage]) -> DamagedArm:
     """The nominal arm with damages applied in order.
 
-    Raises what they raise: see `Damage.apply`.
+    Raises InvalidSetting: something else than an arm or damages; and what these raise: see
+    `Damage.apply`.
     """
+    check_kind("nominal", nominal, Robot, Arm)
+    check_kind("damages", damages, Iterable)
     arm = nominal.arm if isinstance(nominal, Robot) else nominal
     damaged = DamagedArm(arm.copy(), np.zeros(len(arm.joints)))
     for damage in damages:
+        check_kind("damage", damage, Damage)
         damage.apply(arm, damaged)
     return damaged

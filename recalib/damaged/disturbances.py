@@ -1,14 +1,14 @@
 """What keeps a real arm from repeating itself and an instrument from measuring it exactly."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.damaged.imperfections import Imperfection
-from recalib.errors import InvalidSetting
+from recalib.errors import InvalidSetting, check_kind
 from recalib.files import bounded
 
 
@@ -45,17 +45,25 @@ Disturbance = Noise | Repeatability | Outliers
 
 @dataclass(frozen=True)
 class Disturbances:
-    """Random errors of moves and measurements; none by default."""
+    """Random errors of moves and measurements; none by default.
+
+    Raises InvalidSetting: something else in their place.
+    """
 
     noise: Noise = Noise()
     repeatability: Repeatability = Repeatability()
     outliers: Outliers = Outliers()
 
+    def __post_init__(self) -> None:
+        for part in fields(self):
+            check_kind(part.name, getattr(self, part.name), type(part.default))
+
     @classmethod
     def of(cls, parts: Iterable[Disturbance]) -> "Disturbances":
-        """Those that are among the parts. Raises InvalidSetting: two of a kind."""
+        """Those that are among the parts. Raises InvalidSetting: two of a kind, or another one."""
         by_name: dict[str, Any] = {}
         for part in parts:
+            check_kind("disturbance", part, Noise, Repeatability, Outliers)
             name = type(part).__name__.lower()  # which says of what kind each is
             if name in by_name:
                 raise InvalidSetting(name, "there twice", "once in a list of damages")

@@ -7,6 +7,7 @@ import numpy as np
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
+from recalib.errors import check_kind
 from recalib.loop.interfaces import ForwardKinematics, Outcome
 from recalib.nominal import kernels
 from recalib.nominal.chain import Chain
@@ -26,6 +27,8 @@ class Plant:
 
     Attributes:
         moves: how many moves were commanded in each run.
+
+    Raises InvalidSetting: something else than a controller or arms.
     """
 
     def __init__(
@@ -35,6 +38,9 @@ class Plant:
         disturbances: Disturbances | None = None,
         generators: Sequence[np.random.Generator] = (),
     ):
+        check_kind("controller", controller, Controller)
+        check_kind("arms", arms, ForwardKinematics, Sequence)
+        check_kind("disturbances", disturbances, Disturbances, type(None))
         self._controller = controller
         self._disturbances, self._generators = disturbances, generators
         self._arms = [arms] if isinstance(arms, ForwardKinematics) else [*arms]

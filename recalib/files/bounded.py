@@ -5,6 +5,7 @@ A type is a float in SI units with a note. Pydantic reads the note; without it, 
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Annotated, Any
 
 from recalib.errors import InvalidQuantity, InvalidSetting
@@ -47,8 +48,8 @@ class Bounded:
         return self.low <= value <= self.high and not (self.above and value == self.low)
 
     def check(self, name: str, value: float) -> None:
-        """Raise InvalidSetting for a number in SI units beyond the bounds."""
-        if self.holds(value):
+        """Raise InvalidSetting unless it is a number in SI units within the bounds."""
+        if isinstance(value, Real) and self.holds(float(value)):
             return
         if self.quantity is None:
             raise InvalidSetting(name, value, f"a number {self.bounds}")

@@ -8,6 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.arrays import array_of
+from recalib.errors import check_kind
 from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Identification, identify
 from recalib.identification.model.error_model import JOINT_WAVES, ErrorModel, JointTerms, by_sight
 from recalib.identification.model.frames import Frames
@@ -249,7 +250,12 @@ def calibrations(
     start: Identification | None = None,
     weights: np.ndarray | None = None,
 ) -> list[Calibration]:
-    """The calibrations by all error models, without a process; for a start, see `identify`."""
+    """The calibrations by all error models, without a process; for a start, see `identify`.
+
+    Raises InvalidSetting: something else than an arm and observations of it.
+    """
+    check_kind("arm", arm, Arm)
+    check_kind("observations", observations, Observations)
     models = [ErrorModel(arm, terms, frames) for terms in candidates]
     return [Calibration(model, identify(model, observations, start, weights)) for model in models]
 

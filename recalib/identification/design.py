@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from recalib.arrays import array_of
+from recalib.errors import check_kind
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
@@ -18,7 +20,11 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     Args:
         calibration: so far.
         joints: (n, joints) rad, m, each for one measurement of the first target.
+
+    Raises InvalidSetting: another shape, something else than a calibration.
     """
+    check_kind("calibration", calibration, Calibration)
+    joints = array_of("joints", joints, ("n", len(calibration.model.nominal.joints)))
     return _gains(_spreads(_rows(calibration, joints), calibration.estimate.covariance))
 
 

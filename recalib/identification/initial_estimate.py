@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.optimize import least_squares
 
-from recalib.errors import RecalibError
+from recalib.errors import RecalibError, check_kind
 from recalib.identification.closed_forms import solutions, turns_by_poses
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import HELD, Frames
@@ -60,6 +60,8 @@ def initial_frames(
     Raises NoInitialEstimate: too few rows, postures too much alike, or nothing that explains them;
     and BadMeasurement: no numbers, or matrices that are not poses.
     """
+    check_kind("arm", arm, Arm)
+    check_kind("observations", observations, Observations)
     if len(observations) < fewest(observations):
         raise NoInitialEstimate(
             "instrument and target cannot be located from"

@@ -10,7 +10,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from recalib.errors import InvalidSetting
+from recalib.errors import InvalidSetting, check_runs
 from recalib.learners.observer import Observer, Refitting
 from recalib.loop.interfaces import State
 from recalib.nominal.robots import Robot
@@ -33,12 +33,13 @@ class PolynomialLearner(Observer):
         degree: 1 for affine, 2 for quadratic.
         runs: how many independent trainings.
 
-    Raises InvalidSetting for any other degree.
+    Raises InvalidSetting for any other degree, and for no number of runs.
     """
 
     def __init__(self, degree: int, *, runs: int = 1):
         if degree not in (1, 2):
             raise InvalidSetting("degree of a polynomial learner", degree, "1 or 2")
+        check_runs(runs)
         self._degree = degree
         degrees = np.repeat(
             range(degree + 1), [math.comb(5 + power, power) for power in range(degree + 1)]

@@ -11,6 +11,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from recalib.errors import check_kind
 from recalib.identification.calibration import Calibration, calibrate, calibrations
 from recalib.identification.model.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS
 from recalib.identification.model.observations import Observations
@@ -33,11 +34,14 @@ class GeometricLearner(Refitting):
     Args:
         controller: the nominal controller.
         runs: how many independent trainings.
+
+    Raises InvalidSetting: something else than a controller.
     """
 
     MODEL = "calibration"
 
     def __init__(self, controller: Controller, *, runs: int = 1):
+        check_kind("controller", controller, Controller)
         super().__init__(runs=runs, sent=len(controller.robot.joints))
         self._controller = controller
 

@@ -7,6 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from recalib.arrays import array_of
+from recalib.errors import check_kind
 from recalib.learners import kernels
 from recalib.learners.maps import Maps
 from recalib.learners.rules import Rules
@@ -26,10 +27,12 @@ class HierarchicalLearner:
         schedule: how widths and rates fall.
         runs: how many independent trainings.
 
-    Raises InvalidSetting where the schedule is for other maps than the rules.
+    Raises InvalidSetting where the schedule is for other maps than the rules, or for other runs.
     """
 
     def __init__(self, rules: Rules, schedule: Schedule, *, runs: int = 1):
+        check_kind("rules", rules, Rules)
+        check_kind("schedule", schedule, Schedule)
         self.rules, self.schedule = rules, schedule.over(runs)
         self.maps = Maps(runs, rules)
         self._runs = runs

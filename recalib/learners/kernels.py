@@ -291,6 +291,16 @@ def lasting(rate: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray) -> tuple[np.nda
 
 
 @compiled
+def draw(held: np.ndarray, remaining: np.ndarray, drawn: np.ndarray) -> None:
+    """Keep what remains (K L) of what cells held (K, L, n), and add to it (K L, n)."""
+    cells = held.reshape(drawn.shape)
+    for cell in range(drawn.shape[0]):
+        rest = remaining[cell]
+        for number in range(drawn.shape[1]):
+            cells[cell, number] = cells[cell, number] * rest + drawn[cell, number]
+
+
+@compiled
 def propagate(
     theta: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray, star: np.ndarray, increments: bool
 ) -> None:

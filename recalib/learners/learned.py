@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from recalib.errors import InvalidSetting, OtherRobot
+from recalib.errors import InvalidSetting, OtherRobot, check_kind
 from recalib.files.archives import read_archive, refused, write_archive
 from recalib.learners.kinds import class_of, kind_of
 from recalib.loop.interfaces import Savable, State
@@ -27,8 +27,10 @@ Path = str | PathLike[str]
 def save(path: Path, learner: Savable, robot: Robot) -> None:
     """Write what a learner has learned on a robot.
 
-    Raises UnknownName (a learner of no known kind).
+    Raises UnknownName (a learner of no known kind), and InvalidSetting (something else than a
+    robot).
     """
+    check_kind("robot", robot, Robot)
     header = {
         "format": FORMAT,
         "version": VERSION,
@@ -46,8 +48,10 @@ def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
     Args:
         run: the one to load; default: all of them.
 
-    Raises InvalidFile (not whole, or no such file), OtherRobot, and InvalidSetting (no such run).
+    Raises InvalidFile (not whole, or no such file), OtherRobot, and InvalidSetting (no such run, or
+    something else than a robot).
     """
+    check_kind("robot", robot, Robot)
     header, states = read(path)
     with refused(path, WRITER):
         if found := differences(header["robot"], identity(robot)):
@@ -62,7 +66,8 @@ def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
         learner = class_of(header["kind"]).from_settings(settings, len(states), robot)
         learner.restore(states)
         centre = np.zeros((len(states), 1, 6))
-        if not np.isfinite(learner.command(centre)).all():
+        commands = learner.command(centre)
+        if commands.shape != centre.shape or not np.isfinite(commands).all():
             raise ValueError
     return learner
 

@@ -87,5 +87,4 @@ def _apply(
         held += (weighted.T @ kernels.spread_over(g_kl, star)).reshape(held.shape)
     else:
         weights, remaining = kernels.lasting(rate, g_k, g_kl)
-        held *= remaining.reshape(*held.shape[:2], 1)
-        held += (weights.T @ star).reshape(held.shape)
+        kernels.draw(held, remaining, weights.T @ star)

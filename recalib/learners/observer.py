@@ -6,6 +6,7 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from recalib.errors import check_runs
 from recalib.loop.interfaces import Execute, State
 from recalib.loop.moves import Moves, check_moves
 from recalib.nominal.robots import Robot
@@ -68,11 +69,14 @@ class Refitting(Observer):
     Attributes:
         models: of each run; None where nothing has been learned.
         moves: how many there were, refused ones included.
+
+    Raises InvalidSetting: no number of runs.
     """
 
     MODEL: ClassVar[str]  # what a model is called in files
 
     def __init__(self, *, runs: int = 1, sent: int = 6):
+        check_runs(runs)
         self._moves = {
             "sent": np.empty((runs, 0, sent)),
             "achieved": np.empty((runs, 0, 6)),

@@ -7,6 +7,8 @@
 import numpy as np
 from scipy.special import softmax
 
+from recalib.arrays import array_of
+from recalib.errors import InvalidSetting, check_kind
 from recalib.learners import kernels
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
@@ -42,9 +44,15 @@ class RadialLearner:
 
     Attributes:
         theta: (run, K, L, 6) commands that the units hold.
+
+    Raises InvalidSetting: as `HierarchicalLearner`; a field that is not above 0.
     """
 
     def __init__(self, rules: Rules, schedule: Schedule, field: float = SPACING, *, runs: int = 1):
+        check_kind("rules", rules, Rules)
+        check_kind("schedule", schedule, Schedule)
+        if not array_of("field", field, ()) > 0:
+            raise InvalidSetting("field", field, "above 0")
         self.rules, self.schedule = rules, schedule.over(runs)
         self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
         self._widths = self.schedule.widths(rules.maps)

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.errors import InvalidSetting, UnknownName
+from recalib.arrays import array_of
+from recalib.errors import InvalidSetting, UnknownName, check_kind
 from recalib.learners.nets import CENTRES
 from recalib.learners.schedules import (
     DIMENSIONS,
@@ -69,6 +70,8 @@ class Rules:
     initial: int | None = None
 
     def __post_init__(self) -> None:
+        for key in ("separate_maps", "theta_increments", "jacobian_increments", "equal_visits"):
+            check_kind(key, getattr(self, key), bool)
         for kind, name, valid in (
             ("centres of cells", self.centres, CENTRES),
             ("spread of equal visits", self.spread, SPREADS),
@@ -78,6 +81,10 @@ class Rules:
                 raise UnknownName(kind, name, valid)
         if self.dimensions not in (3, 6):
             raise InvalidSetting("dimensions", self.dimensions, "3 or 6")
+        for key in ("supernet", "subnet"):
+            cells = array_of(key, getattr(self, key), (3,))
+            if not (np.greater(cells, 0) & (cells == np.round(cells))).all():
+                raise InvalidSetting(key, getattr(self, key), "three whole numbers, at least 1")
         for key in ("metric", "width_units"):
             factors = getattr(self, key)
             if np.shape(factors) != (6,) or not np.all(np.greater(factors, 0)):

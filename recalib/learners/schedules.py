@@ -10,11 +10,13 @@ of its logarithm, dt is proportional to s^-n ds/s, and p = -n.
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from recalib.errors import InvalidSetting
+from recalib.arrays import array_of
+from recalib.errors import InvalidSetting, check_kind, check_runs
 from recalib.learners.kernels import fall as fall
 
 EXPONENTIAL, LINEAR = 0.0, 1.0  # powers
@@ -60,7 +62,8 @@ class Schedule:
         final_widths: for each map (`Rules.maps`), the final widths of g_k and of g_kl.
         initial_rate, final_rate: the learning rate c' of (4), (5), (7) and (9).
 
-    Raises InvalidSetting if a width is not positive or a rate is not in (0, 1].
+    Raises InvalidSetting if a width is not positive or a rate is not in (0, 1], and for anything
+    but such numbers.
     """
 
     initial_width: Width | Widths
@@ -69,17 +72,29 @@ class Schedule:
     final_rate: float | np.ndarray
 
     def __post_init__(self) -> None:
-        for widths in (self.initial_width, self.final_widths):
-            _each(_check_width, widths)
-        for rate in (self.initial_rate, self.final_rate):
-            if not np.all(np.greater(rate, 0) & np.less_equal(rate, 1)):
-                raise InvalidSetting("learning rate", rate, "above 0 and at most 1")
+        check_kind("final_widths", self.final_widths, Mapping)
+        for key in ("initial_width", "final_widths"):
+            widths = getattr(self, key)
+            for pair in widths.values() if isinstance(widths, Mapping) else ():
+                if not isinstance(pair, Sequence | np.ndarray) or len(pair) != 2:
+                    raise InvalidSetting(key, pair, "two for each map, of g_k and of g_kl")
+            _each(partial(_check, key, np.inf, "above 0"), widths)
+        for key in ("initial_rate", "final_rate"):
+            _check(key, 1.0, "above 0 and at most 1", getattr(self, key))
 
     def over(self, runs: int) -> "Schedule":
-        """The same for a number of runs, all arrays (run,). Raises InvalidSetting: no number."""
-        if not isinstance(runs, int | np.integer) or runs < 1:
-            raise InvalidSetting("runs", runs, "a whole number, at least 1")
-        return self._of(lambda number: np.full(runs, number), self)
+        """The same for a number of runs, all arrays (run,).
+
+        Raises InvalidSetting: no number, or an array of other runs.
+        """
+        check_runs(runs)
+
+        def full(number: float | np.ndarray) -> np.ndarray:
+            if np.size(number) not in (1, runs):
+                raise InvalidSetting("schedule", f"of {np.size(number)} runs", f"of 1 or {runs}")
+            return np.full(runs, number)
+
+        return self._of(full, self)
 
     def widths(self, maps: Collection[str]) -> tuple[np.ndarray, np.ndarray]:
         """Initial and final widths (run, map, 2) of the schedule of several runs.
@@ -112,14 +127,16 @@ class Schedule:
         return cls(*(_each(change, *part) for part in parts))
 
 
+def _check(key: str, most: float, valid: str, given: float | np.ndarray) -> None:
+    """Raise InvalidSetting unless numbers () or (run,) are above 0, and none is above the most."""
+    numbers = array_of(key, given, (), ("run",))
+    if not np.all((numbers > 0) & (numbers <= most)):
+        raise InvalidSetting(key, given, valid)
+
+
 def _each(change: Callable[..., Any], *parts: Any) -> Any:
     """What a change makes of numbers, or of those at each place of pairs by map."""
     if not isinstance(parts[0], Mapping):
         return change(*parts)
     pairs = {name: zip(*(part[name] for part in parts), strict=True) for name in parts[0]}
     return {name: [change(*numbers) for numbers in pair] for name, pair in pairs.items()}
-
-
-def _check_width(width: Width) -> None:
-    if not np.all(np.greater(width, 0)):
-        raise InvalidSetting("width of a neighbourhood", width, "above 0")

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.errors import BadMeasurement
+from recalib.errors import BadMeasurement, InvalidSetting, check_kind
 from recalib.loop.interfaces import Outcome
 from recalib.nominal.poses import Workspace
 
@@ -27,9 +27,14 @@ class ExternalRobot:
     Attributes:
         moves: how many moves were commanded in each run.
         refused: (run,) how many of them the robot refused; 0 before the first.
+
+    Raises InvalidSetting: something else than a workspace and a function.
     """
 
     def __init__(self, workspace: Workspace, move: Callable[[np.ndarray], np.ndarray | None]):
+        check_kind("workspace", workspace, Workspace)
+        if not callable(move):
+            raise InvalidSetting("move", type(move).__name__, "a function")
         self.workspace, self._move = workspace, move
         self.moves = 0
         self.refused: np.ndarray | int = 0

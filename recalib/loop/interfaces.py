@@ -29,6 +29,7 @@ class Outcome(NamedTuple):
 Execute = Callable[[np.ndarray], Outcome]
 
 
+@runtime_checkable
 class Learner(Protocol):
     """The interface of a learner: it commands desired poses and learns from the outcomes.
 
@@ -71,6 +72,7 @@ class Savable(Learner, Protocol):
         """Restore a `state` in a learner with the same settings."""
 
 
+@runtime_checkable
 class Commandable(Protocol):
     """The interface of an experiment's robots, one for each run: they execute pose commands."""
 

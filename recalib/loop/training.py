@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 
 from recalib.arrays import array_of
-from recalib.errors import InvalidSetting
+from recalib.errors import InvalidSetting, check_kind
 from recalib.loop.interfaces import Commandable, Learner
 from recalib.nominal.poses import Workspace, pose_errors
 
@@ -111,9 +111,11 @@ def train(
             cm and degrees.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
 
-    Raises InvalidSetting: poses of other shapes, or none to measure on; a measurement after more
-    iterations than there are, or none at all.
+    Raises InvalidSetting: something else than a plant and a learner; poses of other shapes, or none
+    to measure on; a measurement after more iterations than there are, or none at all.
     """
+    check_kind("plant", plant, Commandable)
+    check_kind("learner", learner, Learner)
     desired = array_of("desired", desired, ("n", "n", 6), ("n", 6))
     tests = array_of("tests", tests, (*desired.shape[:-2], "n", 6))
     if not tests.size:
@@ -145,5 +147,9 @@ def corrected(learner: Learner, workspace: Workspace, poses: np.ndarray) -> np.n
     Args:
         learner: that learned on this robot, in one run.
         workspace: of the robot.
+
+    Raises InvalidSetting: another shape, something else than a learner and a workspace.
     """
+    check_kind("learner", learner, Learner)
+    check_kind("workspace", workspace, Workspace)
     return workspace.to_poses(learner.command(workspace.to_coordinates(poses)[None])[0])

@@ -19,7 +19,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from recalib.errors import UnfitWorkspace, Unreachable
+from recalib.arrays import array_of
+from recalib.errors import UnfitWorkspace, Unreachable, check_kind
 from recalib.nominal import kernels
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.robots import Robot, shown
@@ -62,10 +63,12 @@ class Controller:
             workspace's half-ranges.
 
     Raises UnfitWorkspace where the workspace is out of reach, beyond a joint limit or too near to a
-    singularity.
+    singularity, and InvalidSetting: something else than a robot.
     """
 
     def __init__(self, robot: Robot, greatest_condition: float = GREATEST_CONDITION):
+        check_kind("robot", robot, Robot)
+        check_kind("greatest_condition", greatest_condition, float, int)
         self.robot, self._chain = robot, Chain.of(robot.arm)
         grid = np.array(list(product(np.linspace(-1, 1, KNOTS), repeat=6)))
         knots, solved = np.tile(robot.home, (len(grid), 1)), []
@@ -122,9 +125,10 @@ class Controller:
     def inverse(self, poses: np.ndarray) -> np.ndarray:
         """Joint angles (n, joint) [rad] for the commanded poses (n, 4, 4).
 
-        Raises Unreachable for the first command that cannot be executed.
+        Raises Unreachable for the first command that cannot be executed, and InvalidSetting:
+        another shape.
         """
-        solution = self.solve(poses)
+        solution = self.solve(poses := array_of("poses", poses, ("n", 4, 4)))
         for index in np.flatnonzero(~solution.executed):
             there = solution.residuals[index] <= TOLERANCE
             reason = "only beyond the joint limits" if there else NOT_REACHED

@@ -18,7 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidSetting, UnknownName
+from recalib.arrays import array_of
+from recalib.errors import InvalidSetting, UnknownName, check_kind
 from recalib.nominal.kinematics import Arm
 
 CONVENTIONS = "standard", "modified"
@@ -80,15 +81,17 @@ def arm_of_table(rows: Sequence[Row], convention: str = "standard") -> Arm:
 
 
 def _check(rows: Sequence[Row]) -> None:
+    check_kind("rows", rows, Sequence)
     if not 0 < len(rows) <= MOST:
         raise InvalidSetting("rows", f"{len(rows)} joints", f"1 to {MOST}")
+    for row in rows:
+        check_kind("row", row, Row)
     names = [row.name for row in rows]
     for row in rows:
         if names.count(row.name) > 1:
             raise InvalidSetting("name of a row", row.name, "another name for each joint")
         for key in ("a", "alpha", "d", "theta"):
-            if not np.isfinite(getattr(row, key)):
-                raise InvalidSetting(f"{key} of {row.name}", getattr(row, key), "a number")
+            array_of(f"{key} of {row.name}", getattr(row, key), ())
 
 
 def _screw(axis: int, angle: float, length: float) -> pin.SE3:

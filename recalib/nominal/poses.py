@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from recalib.arrays import array_of, check_rotations, ending
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal import kernels
 
@@ -31,7 +32,8 @@ class Workspace:
             angles in rad.
         coordinates: of orientations: roll_pitch_yaw or rotation_vector.
 
-    Raises UnknownName, and InvalidSetting where orientations in it have several coordinates.
+    Raises UnknownName, and InvalidSetting: another shape or no pose, no size, or such a size that
+    orientations in it have several coordinates.
     """
 
     centre: np.ndarray
@@ -41,7 +43,12 @@ class Workspace:
     def __post_init__(self) -> None:
         if self.coordinates not in COORDINATES:
             raise UnknownName("coordinates of orientations", self.coordinates, COORDINATES)
-        roll, pitch, yaw = turns = np.abs(self.half_ranges[ORIENTATION])
+        for name, shape in {"centre": (4, 4), "half_ranges": (6,)}.items():
+            object.__setattr__(self, name, array_of(name, getattr(self, name), shape))
+        check_rotations("centre", self.centre)
+        if not (self.half_ranges > 0).all():
+            raise InvalidSetting("half_ranges", self.half_ranges.tolist(), "above 0")
+        roll, pitch, yaw = turns = self.half_ranges[ORIENTATION]
         if self.region[2]:
             unique, most = np.linalg.norm(turns) < np.pi, "a diagonal below 180 deg"
         else:
@@ -52,7 +59,8 @@ class Workspace:
             raise InvalidSetting("half_ranges of orientation", found, most)
 
     def to_poses(self, coordinates: np.ndarray) -> np.ndarray:
-        """Poses (..., 4, 4) at the coordinates (..., 6)."""
+        """Poses (..., 4, 4) at the coordinates (..., 6). Raises InvalidSetting: another shape."""
+        coordinates = ending("coordinates", coordinates, 6)
         poses = kernels.poses_at(coordinates.reshape(-1, 6), self.region)
         return poses.reshape(*coordinates.shape[:-1], 4, 4)
 
@@ -60,7 +68,9 @@ class Workspace:
         """Coordinates (..., 6) of the poses (..., 4, 4).
 
         From the centre's orientation, a pitch must stay below 90 degrees, a turn below 180.
+        Raises InvalidSetting: another shape.
         """
+        poses = ending("poses", poses, 4, 4)
         numbers = kernels.coordinates_of(poses.reshape(-1, 4, 4), self.region)
         return numbers.reshape(*poses.shape[:-2], 6)
 
@@ -85,6 +95,7 @@ def orientation_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
 
 
 def _distances(achieved: np.ndarray, desired: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    achieved, desired = ending("achieved", achieved, 4, 4), ending("desired", desired, 4, 4)
     achieved, desired = np.broadcast_arrays(achieved, desired)
     lengths, angles = kernels.distances(achieved.reshape(-1, 4, 4), desired.reshape(-1, 4, 4))
     return lengths.reshape(achieved.shape[:-2]), angles.reshape(achieved.shape[:-2])

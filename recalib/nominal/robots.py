@@ -47,6 +47,11 @@ class Robot:
         """Each link, with the joint that moves it (0: the base)."""
         return self.arm.links
 
+    @property
+    def outward(self) -> np.ndarray:
+        """Unit vector (3,) in the tool's frame, along the last joint's axis, away from the arm."""
+        return _end(self.arm).rotation.T @ _outward(self.arm)
+
 
 def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
     """A joint coordinate [rad], or [m] if the joint slides, for people."""
@@ -62,11 +67,15 @@ def link_end(model: pin.Model, tool: str, joint: int) -> pin.SE3:
     return model.frames[tool_frame(model, tool)].placement
 
 
-def _lengthen(arm: Arm, beyond: float) -> None:
-    """Move the tool's frame outwards along the last joint's axis: its own axes differ by URDF."""
-    end = link_end(arm.model, arm.tool, arm.model.njoints - 1).translation
+def _end(arm: Arm) -> pin.SE3:
+    """The tool's frame in that of the last joint [m]; to change it is to change the model."""
+    return link_end(arm.model, arm.tool, arm.model.njoints - 1)
+
+
+def _outward(arm: Arm) -> np.ndarray:
+    """Unit vector (3,) along the last joint's axis, to the tool: whose axes differ by URDF."""
     axis = arm.axes[-1]
-    end += math.copysign(beyond, end @ axis) * axis
+    return math.copysign(1, _end(arm).translation @ axis) * axis
 
 
 def load_robot(
@@ -100,7 +109,8 @@ def load_robot(
     """
     path, limits = find_urdf(urdf), limits or {}
     arm = load_arm(path, tool)
-    _lengthen(arm, beyond)
+    end = _end(arm).translation
+    end += beyond * _outward(arm)
     joints = arm.joints
     if len(arm.coupling.columns) < len(joints):
         followers = f"of {', '.join(joints)} some follow others by <mimic>"

@@ -7,7 +7,6 @@ DESIGN = f"{CAMPAIGN}/design.csv"
 OUTCOMES = f"{CAMPAIGN}/outcomes.csv"  # the campaign is this one table
 FEWEST = 20  # setups: until then no verdict follows from them (docs/registration.md)
 UNTRAINED = f"{CAMPAIGN}/untrained.csv"  # what is measured in every setup without a learner
-SECOND = f"{CAMPAIGN}/second.yaml"  # verdicts that stand until the campaign has its own
 DEVIATIONS = "workflow/deviations.yaml"  # what changed after a result had been seen
 
 

@@ -7,15 +7,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
-import yaml
-from pydantic import TypeAdapter
 
 from replication.campaign.variants import variants
 from replication.config.campaign import Factors
-from replication.config.part import Frozen
-from replication.config.shipped import FEWEST, SECOND, root_of
+from replication.config.shipped import root_of
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.judgement.claims import claims
@@ -37,16 +33,6 @@ NOT_MEASURED = "not measured"
 SYSTEMS = {IMPROVED: "improved system"}
 
 
-class Earlier(Frozen):
-    """What the second campaign found about a claim, in words."""
-
-    verdict: Verdict
-    result: str
-
-
-_EARLIER = TypeAdapter(dict[str, Earlier])
-
-
 @dataclass(frozen=True)
 class Judged:
     """A claim and its finding.
@@ -55,9 +41,6 @@ class Judged:
         statement: what the paper says.
         finding: None if it was not measured.
         needs: then, what would measure it, unless it is the campaign.
-        earlier: then, what the second campaign found, if it judged the claim.
-        so_far: then, the number that will decide, in the setups measured so far: its mean, and its
-            range as interval.
         changed: whether its criterion changed after a result had been seen.
         shares: names and systems of those of its numbers that are shares of an error.
     """
@@ -65,17 +48,13 @@ class Judged:
     statement: Statement
     finding: Finding | None
     needs: str
-    earlier: Earlier | None
-    so_far: Number | None
     changed: bool
     shares: frozenset[tuple[str, str]]
 
     @property
     def verdict(self) -> str:
         """In a word or two."""
-        if self.finding:
-            return str(self.finding.verdict)
-        return f"{self.earlier.verdict} †" if self.earlier else NOT_MEASURED
+        return str(self.finding.verdict) if self.finding else NOT_MEASURED
 
     @property
     def exploratory(self) -> bool:
@@ -95,14 +74,17 @@ class Judged:
     @property
     def value(self) -> str:
         """That number with its interval."""
-        if self.number:
-            return self.text(self.number)
-        return self.earlier.result if self.earlier else NOT_MEASURED
+        return self.text(self.number) if self.number else NOT_MEASURED
 
     @property
     def result(self) -> str:
         """That number with its name."""
         return f"{_named(self.number.name)}: {self.value}" if self.number else self.value
+
+    def of_system(self, system: str) -> Number | None:
+        """Its number for another algorithm, if it has one."""
+        numbers = self.finding.estimates if self.finding else ()
+        return next((number for number in numbers if number.system == system), None)
 
     def name(self, number: Number, before: Number | None = None) -> str:
         """What a number is, and of which algorithm if it is another one than that before."""
@@ -154,38 +136,11 @@ class Contents:
             numbers = {(claim.name, claim.system): claim.estimand, **claim.secondary}
         shares = frozenset(key for key in numbers if isinstance(numbers[key], Remaining))
         needs = "" if finding else self._needs(claim)
-        earlier = None if finding else self._earlier.get(claim.statement.id)
-        so_far = None if finding else self._so_far(claim)
         changed = any(
             change.kind == "criterion" and claim.statement.id in change.digests
             for change in self.deviations.deviations
         )
-        return Judged(claim.statement, finding, needs, earlier, so_far, changed, shares)
-
-    def _so_far(self, claim: Claim) -> Number | None:
-        """What the campaign has measured while no verdict may follow."""
-        if not isinstance(claim, OfSetups):
-            return None
-        try:
-            values = claim.estimand.values(self.evidence.outcomes())
-        except NotMeasured:
-            return None
-        setups = values.table.mean(axis=1).dropna()
-        if setups.empty:
-            return None
-        mean, least, most = np.exp([setups.mean(), setups.min(), setups.max()])
-        bounds = {1: "at least", -1: "at most"}
-        bound = next((bounds[sign] for sign in values.bounds.to_numpy().flat if sign), None)
-        return Number(
-            name=claim.name, system=claim.system, value=mean, interval=(least, most), bound=bound
-        )
-
-    @cached_property
-    def _earlier(self) -> dict[str, Earlier]:
-        """What the second campaign found about the shipped study's claims."""
-        if not self.evidence.shipped:
-            return {}
-        return _EARLIER.validate_python(yaml.safe_load((self.project / SECOND).read_bytes()))
+        return Judged(claim.statement, finding, needs, changed, shares)
 
     def _needs(self, claim: Claim) -> str:
         try:
@@ -214,13 +169,6 @@ class Contents:
         except NotMeasured:
             return 0
         return int(measured.map(names.issubset).sum())
-
-    fewest = FEWEST  # setups from which verdicts may follow
-
-    @property
-    def waiting(self) -> bool:
-        """Whether there are too few setups for a verdict."""
-        return self.setups < FEWEST
 
     @cached_property
     def own(self) -> dict[str, Any]:

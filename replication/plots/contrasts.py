@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
 
 from replication.judgement.claims import claims
 from replication.judgement.claims.claim import OfSetups
@@ -18,7 +19,9 @@ from replication.plots.palette import BORDER, HOLDS, NEUTRAL
 from replication.plots.style import MARK, WIDTH, logarithmic, name_right, name_rows, spread
 
 ROW = 0.28  # inches
-TICKS = 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100
+DECADES = 0.01, 0.1, 1, 10, 100
+TICKS = sorted([*DECADES, 0.03, 0.3, 3, 30])  # where there is room for them
+ROOM = 100  # the greatest end over the least one
 MARGIN = 1.15  # times the most that is shown
 LABELS: Mapping[str, str] = {  # of the claims' numbers, by claim
     "large-neighbourhoods": "$g_k$ as tuned / wide",
@@ -62,7 +65,7 @@ class Row(NamedTuple):
     def result(self) -> str:
         """Its mean and its verdict."""
         value = self.finding.estimates[0].value
-        number = f"{100 * value:.2g} %" if self.is_share else f"{value:.2f}"
+        number = f"{100 * value:.2g} %" if self.is_share else f"{value:.3g}"
         return f"{number} {self.finding.verdict}"
 
 
@@ -90,6 +93,7 @@ def contrasts(evidence: Evidence) -> Figure:
     for axes, part, label in zip(panels, parts, labels, strict=True):
         _draw(axes, part)
         axes.set_xlabel(label)
+    panels[1].xaxis.set_major_formatter(PercentFormatter(1, decimals=0, symbol=" %"))
     return figure
 
 
@@ -103,7 +107,8 @@ def _draw(axes: Axes, part: list[Row]) -> None:
     for label, row in zip(results.get_yticklabels(), part, strict=True):
         if row.finding.verdict in (Verdict.SUPPORTED, Verdict.CONTRADICTED):
             label.set_fontweight("bold")
-    logarithmic(axes.xaxis, *(tick for tick in TICKS if low < tick < high))
+    ticks = TICKS if high < ROOM * low else DECADES
+    logarithmic(axes.xaxis, *(tick for tick in ticks if low < tick < high))
     axes.set(xlim=(low, high), ylim=(-0.5, len(part) - 0.5))
 
 

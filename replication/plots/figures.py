@@ -1,10 +1,9 @@
 """Which figures there are, with their captions; `drawing` draws them."""
 
-import csv
 from enum import Enum
 from pathlib import Path
 
-from replication.config.shipped import FEWEST, OUTCOMES, SHIPPED
+from replication.config.shipped import OUTCOMES, SHIPPED
 from replication.config.study import Study
 
 
@@ -31,9 +30,9 @@ class Figure(Enum):
         " system's share after {study.experiments.iterations} iterations. Bottom: iterations after"
         " which each system reaches this line, and their ratio to {study.experiments.iterations}."
         " Ritter's map has as many cells as both new maps together, or half as many; + means: two"
-        " maps with this change. A last row shows the number in all setups, once enough are"
-        " measured (triangle: a lower bound), and their mean (diamond) with its 95 % interval"
-        " (thick) and that for one more study (thin).",
+        " maps with this change. The last row shows the number in every setup (triangle: a lower"
+        " bound), and their mean (diamond) with its 95 % interval (thick) and that for one more"
+        " study (thin).",
     )
     CONTRASTS = (
         "contrasts:contrasts",
@@ -115,20 +114,12 @@ APART = Figure.BENCHMARK, Figure.REAL_ARM  # of targets of their own
 
 def figures_of(study: Study) -> list[str]:
     """The files, without suffix, of the figures for which a default run of a study has results."""
-    evidence, setups = study.experiments.evidence, _setups(study)
+    evidence = study.experiments.evidence
+    judged = evidence and study.name == SHIPPED and Path(OUTCOMES).exists()
     lacking = {
-        Figure.STEPS: not setups,
-        Figure.CONTRASTS: len(setups) < FEWEST,
+        Figure.STEPS: not judged,
+        Figure.CONTRASTS: not judged,
         Figure.MAPPING: not evidence,
         Figure.AMOUNTS: not evidence,
     }
     return [figure.file for figure in Figure if figure not in APART and not lacking.get(figure)]
-
-
-def _setups(study: Study) -> set[str]:
-    """The setups of the campaign that are measured so far, if the study judges by them."""
-    table = Path(OUTCOMES)
-    if study.name != SHIPPED or not study.experiments.evidence or not table.exists():
-        return set()
-    with table.open(encoding="utf-8", newline="") as file:
-        return {row["setup"] for row in csv.DictReader(file)}

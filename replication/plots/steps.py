@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 
 from replication.campaign.variants import DOUBLE, TWO_MAPS
 from replication.config.switches import IMPROVED, RITTER
-from replication.judgement.claims.claim import enough
 from replication.judgement.claims.section_7 import PUBLISHED
 from replication.judgement.contrasts import SHARES, Crossing, Remaining, Values
 from replication.judgement.evidence import Evidence
@@ -50,16 +49,14 @@ def steps(evidence: Evidence) -> Figure:
         below.hlines(height, own, middle, color=style.color, linewidth=3)
         below.scatter(needed, [height] * len(needed), s=MARK, zorder=3, **style.signs())
         texts.append(_in_words(middle, own, bound))
-    names, lowest = [style.label for style in shown.values()], 0.4
-    if enough(setups):
-        texts.append(_in_words(_draw_setups(below, setups, own), own))
-        names.append(f"Ritter, equal cells,\n{len(setups.table)} setups")
-        below.axhline(0.5, **BORDER)
-        lowest = -0.7
-    rows = range(len(shown), len(shown) - len(names), -1)
+    texts.append(_in_words(_draw_setups(below, setups, own), own))
+    names = [style.label for style in shown.values()]
+    names.append(f"Ritter, equal cells,\n{len(setups.table)} setups")
+    below.axhline(0.5, **BORDER)
+    rows = range(len(shown), -1, -1)
     name_rows(below, rows, names)
     name_right(below, rows, texts)
-    below.set(xlim=ENDS, ylim=(lowest, len(shown) + 0.6))
+    below.set(xlim=ENDS, ylim=(-0.7, len(shown) + 0.6))
     below.set_xlabel("iterations (each length tuned)")
     logarithmic(below.xaxis, 50, 200, 1000, 5000, 20_000)
     level = 100 * np.exp(goal.values(home).table.to_numpy().mean())

@@ -10,8 +10,6 @@ from .phases import VISIT as VISIT
 from .phases import move as move
 from .recorded import recorded_places as recorded_places
 from .recorded import typical_seed as typical_seed
-from .scene import AXIS as AXIS
-from .scene import unit_of as unit_of
 from .sight import sight_of as sight_of
 from .watched import visiting_order as visiting_order
 from .writing import check_end as check_end

@@ -10,22 +10,21 @@ from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.laboratory.scene import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
-from recalib.nominal.robots import Robot
-from replication.recording.colours import DAMAGE, NOMINAL, REACHED
+from replication.recording.colours import DAMAGE, NOMINAL
 from replication.recording.markers import base_shift, circle, markers
-from replication.recording.scene import AXIS, Scene, axes_of, unit_of
+from replication.recording.scene import ASSUMED, REAL, Scene, send_gripper
 
-BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `unit_of`
-TOOL = 0.02  # radius of the axes of the real arm's tool
+BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `Scene.unit`
 FOOT = 0.7  # radius of the circle about a base that was moved
 
 
-def send_arms(scene: Scene, robot: Robot, damages: Sequence[Damage]) -> None:
-    """Both arms in motion, the tool of the real one, and where it is damaged.
+def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
+    """Both arms in motion, each with its gripper, and where the real one is damaged.
 
     Raises InvalidFile where a mesh of the robot is not found.
     """
-    rec, learner, motion, unit = scene.rec, scene.learner, scene.motion, unit_of(scene.workspace)
+    rec, learner, robot = scene.rec, scene.learner, scene.robot
+    motion, unit = scene.motion, scene.unit
     damaged, base = apply(robot, damages), base_shift(robot, damages)
     source = read_file(robot.urdf, MOST)
     visuals, missing = log_meshes(rec, source, robot.urdf, learner)
@@ -36,9 +35,9 @@ def send_arms(scene: Scene, robot: Robot, damages: Sequence[Damage]) -> None:
     links = dict.fromkeys([*visuals, *(marker.link for marker in found)])
     for link, poses in link_placements(damaged.arm, links, standing, base).items():
         send_frame(rec, f"{learner}/links/{link}", f"{learner}/{link}", clock, poses)
-    axes = axes_of(damaged.arm.forward(standing), AXIS * unit)
-    scene.send("tool", clock, rr.LineStrips3D.columns(strips=axes), 3)
-    scene.log("tool", rr.LineStrips3D.from_fields(colors=REACHED, radii=TOOL * unit))
+    reached, assumed = damaged.arm.forward(standing), robot.arm.forward(motion.angles)
+    send_gripper(scene, "tool", clock, reached, REAL)
+    send_gripper(scene, "nominal/tool", clock, assumed, ASSUMED)
     bones = robot.arm.skeleton(motion.angles)
     joints = rr.Points3D.columns(positions=bones.reshape(-1, 3))
     scene.send("nominal/joints", clock, joints, bones.shape[1])

@@ -7,7 +7,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from replication.recording.colours import BACKGROUND
-from replication.recording.phases import ARM, CLOCK, FRAMES_A_SECOND
+from replication.recording.phases import ARM, CLOCK, FRAMES_A_SECOND, MAP
 from replication.recording.sight import Sight
 from replication.recording.watched import Watched
 
@@ -18,21 +18,21 @@ TITLES = {
 LEAST = 0.1  # cm and degrees, to which a plot reaches at least
 
 
-def arrange(watched: Watched, sight: Sight) -> rrb.Blueprint:
-    """The text and the errors to the left of the arm."""
-    arm = rrb.Spatial3DView(
-        origin="/",
-        name=ARM,
-        background=BACKGROUND,
-        eye_controls=rrb.EyeControls3D(
-            position=sight.eye, look_target=sight.target, eye_up=(0, 0, 1)
-        ),
+def arrange(learner: str, watched: Watched, sight: Sight) -> rrb.Blueprint:
+    """The text and the errors to the left of the arm, and behind it what its map learns."""
+    eye = rrb.EyeControls3D(position=sight.eye, look_target=sight.target, eye_up=(0, 0, 1))
+    of_map, caption = f"/{learner}/map/**", f"/{learner}/target/caption"
+    pictures = (
+        rrb.Spatial3DView(contents=contents, name=name, background=BACKGROUND, eye_controls=eye)
+        for name, contents in ((ARM, ["/**", f"- {of_map}"]), (MAP, [of_map, caption]))
     )
     # the text on the left, because the viewer's notices pop up on the right
     text = rrb.TextDocumentView(origin="about", name="what you see")
     left = rrb.Vertical(text, *_plots(watched), row_shares=[12, 8, 8])
     return rrb.Blueprint(
-        rrb.Horizontal(left, arm, column_shares=[3, 5], name="the arm before and after"),
+        rrb.Horizontal(
+            left, rrb.Tabs(*pictures), column_shares=[3, 5], name="the arm before and after"
+        ),
         rrb.TimePanel(
             state="collapsed",
             timeline=CLOCK,

@@ -20,8 +20,9 @@ def description(resolved: Resolved, watched: Watched) -> str:
     damages = damages_among(resolved.damages)
     disturbances = [entry for entry in resolved.damages if entry not in damages]
     text = [
-        f"**The grey arm** is the real one, a {resolved.robot.upper()}. **The blue skeleton** is"
-        " the arm that its controller assumes: it is always exactly where it was sent.",
+        f"**The grey arm** is the real one, a {resolved.robot.upper()}; its tool is orange."
+        " **The blue skeleton** is the arm that its controller assumes: it is always exactly where"
+        " it was sent.",
         f"**Its damage** (yellow): {'; '.join(map(in_words, damages))}."
         if damages
         else "**It has no damage**: it is where its controller assumes it to be.",
@@ -29,14 +30,15 @@ def description(resolved: Resolved, watched: Watched) -> str:
     if disturbances:
         text.append(f"**Disturbances**: {'; '.join(map(in_words, disturbances))}.")
     learned = watched.history
-    misses = " and misses them (orange)" if damages else ""
+    misses = " and misses them" if damages else ""
     before, after = (_errors(watched)[row] for row in (0, -1))
     text += [
         f"The arm visits {len(watched.desired)} poses (white){misses}, learns for"
         f" {learned.iterations[-1]} iterations ({learned.moves[-1]} moves), and"
         f" visits them again. Mean errors over all test poses: {before} before, {after} after.",
-        "**The map** that corrects commands: each dot is a cell; those that have just learned are"
-        " larger. An arrow shows how far a cell moves a command.",
+        "**The map** that corrects commands has its own picture. Each blue dot is a cell; those"
+        " that have just learned are larger. An arrow shows how far a cell moves a command. Orange"
+        " lines lead from desired positions (white) to reached ones.",
     ]
     return "\n\n".join(text)
 
@@ -62,7 +64,7 @@ def in_words(entry: Entry) -> str:
 
 def legend(resolved: Resolved) -> dict[str, colours.Colour]:
     """What stands for what in the picture, with its colour."""
-    lines = {"desired pose": colours.WHITE, "pose reached": colours.REACHED}
+    lines = {"desired pose": colours.WHITE, "tool": colours.REACHED}
     if damages_among(resolved.damages):
         lines["damage"] = colours.DAMAGE
     return lines | {"assumed arm": colours.NOMINAL}

@@ -1,4 +1,4 @@
-"""What the colours of a recording mean: each one thing, told apart by the colour-blind, too."""
+"""What the colours of a recording mean: each one thing, distinct for the colour-blind, too."""
 
 Colour = tuple[int, int, int]
 

@@ -21,10 +21,10 @@ from replication.recording.viewer import HERE, PATIENCE, answer, free_port, view
 
 REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
 WINDOW = "1490x800"  # pixels, of which the arm has five eighths: as wide as a page
-ZOOM = 5  # steps of a tenth, by which words are larger: they can be read on a telephone
-SHOWN = 4 * VISIT  # frames at the end of each phase of visits
-STEP = 8  # frames of a visit from one picture to the next
-FRAME, LAST = 100, 2000  # milliseconds
+ZOOM = 10  # steps of a tenth, by which words are larger: they can be read on a telephone
+SHOWN = 3 * VISIT  # frames at the end of each phase of visits
+STEP = 5  # frames of a visit from one picture to the next
+FRAME, LAST = 100, 1500  # milliseconds
 
 
 class _Patient:
@@ -41,7 +41,8 @@ class _Patient:
 def take_film(recording: Path, film: Path) -> None:
     """Write an animated WebP of what the viewer shows of the arm.
 
-    It shows the ends of both phases of visits, and learning in as many steps as one of them.
+    It shows the ends of both phases of visits, and learning in as many steps as one of them: each
+    stands for a while at its end.
 
     Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
     Raises RecalibError where the viewer does not start or does not load the recording.
@@ -53,7 +54,7 @@ def take_film(recording: Path, film: Path) -> None:
             format="WebP",
             save_all=True,
             append_images=others,
-            duration=[FRAME] * len(others) + [LAST],
+            duration=3 * ([FRAME] * (len(others) // 3) + [LAST]),
             loop=0,
             quality=75,
         )
@@ -67,8 +68,8 @@ def _frames(recording: Path) -> np.ndarray:
     first, last = min(map(min, numbers)), max(map(max, numbers))
     visits = np.arange(max(first, -SHOWN), 0, STEP)
     # the last frame of learning: its number is one of iterations, and the arm rests there, too
-    learning = np.linspace(0, first + last, len(visits), dtype=int)
-    return np.concatenate([visits, learning, last + 1 + visits])
+    learning = (first + last) * np.linspace(0, 1, len(visits)) ** 2  # it learns most at first
+    return np.concatenate([visits, learning.astype(int), last + 1 + visits])
 
 
 def _pictures(recording: Path, frames: np.ndarray) -> list[Image.Image]:

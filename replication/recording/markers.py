@@ -10,7 +10,7 @@ from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.nominal.robots import Robot
 from replication.config.damages import Entry
 
-HALF_AXIS = 0.5  # of the axis that is drawn through a joint, in units of `scene.unit_of`
+HALF_AXIS = 0.5  # of the axis that is drawn through a joint, in units of `Scene.unit`
 
 
 @dataclass(frozen=True)
@@ -50,9 +50,9 @@ def markers(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Marker
         if link := link_of(damage):
             found[link] = Marker(link, link, None)
         elif joint := joint_of(damage):
-            number = 1 + robot.joints.index(joint)
-            reach = HALF_AXIS * unit * _axis(robot, number)
-            found[joint] = Marker(joint, moved[number], np.stack([-reach, reach]))
+            index = robot.joints.index(joint)
+            reach = HALF_AXIS * unit * robot.arm.axes[index]
+            found[joint] = Marker(joint, moved[1 + index], np.stack([-reach, reach]))
     return [*found.values()]
 
 
@@ -68,10 +68,3 @@ def circle(placement: pin.SE3, radius: float) -> np.ndarray:
     angles = np.linspace(0, 2 * np.pi, 49)
     flat = radius * np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
     return flat @ placement.rotation.T + placement.translation
-
-
-def _axis(robot: Robot, joint: int) -> np.ndarray:
-    """Unit vector (3,) of a joint's axis in its frame."""
-    model = robot.arm.model
-    jacobian = pin.computeJointJacobian(model, model.createData(), robot.home, joint)
-    return jacobian[3:, joint - 1]

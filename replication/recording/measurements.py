@@ -4,7 +4,7 @@ import numpy as np
 import rerun as rr
 
 from replication.recording.colours import NOMINAL, REACHED
-from replication.recording.scene import AXIS, Scene, axes_of, unit_of
+from replication.recording.scene import Scene
 from replication.training.measured import ERRORS
 
 
@@ -20,24 +20,14 @@ def send_errors(scene: Scene) -> None:
 
 
 def send_landings(scene: Scene) -> None:
-    """Achieved frames and misses, as lines: the closer to the desired pose, the thinner."""
-    watched, unit = scene.watched, unit_of(scene.workspace)
+    """Misses, as lines from the desired to the achieved positions."""
     _, rows = scene.motion.measurements()
-    achieved, poses = watched.achieved[rows], len(watched.desired)
-    desired = np.broadcast_to(watched.desired, achieved.shape)
-    reached, goals = (
-        axes_of(frames.reshape(-1, 4, 4), AXIS * unit) for frames in (achieved, desired)
-    )
-    misses = np.stack([goals[::3, 0], reached[::3, 0]], axis=1)  # from origin to origin
-    tips = np.stack([goals[:, 1], reached[:, 1]], axis=1)
-    for part, strips, apart, widest in (
-        ("reached", reached, tips, 0.01 * unit),
-        ("miss", misses, misses, 0.03 * unit),
-    ):
-        far = np.linalg.norm(apart[:, 1] - apart[:, 0], axis=-1)
-        lines = rr.LineStrips3D.columns(strips=strips, radii=np.minimum(far / 4, widest))
-        count = poses * len(strips) // len(misses)
-        scene.show(part, lines, count, rr.LineStrips3D.from_fields(colors=REACHED))
+    achieved = scene.watched.achieved[rows][..., :3, 3]
+    desired = np.broadcast_to(scene.watched.desired[:, :3, 3], achieved.shape)
+    misses = np.stack([desired, achieved], axis=2).reshape(-1, 2, 3)
+    style = rr.LineStrips3D.from_fields(colors=REACHED, radii=0.02 * scene.unit)
+    lines = rr.LineStrips3D.columns(strips=misses)
+    scene.show("map/miss", lines, len(scene.watched.desired), style)
 
 
 def send_map(scene: Scene) -> None:
@@ -45,7 +35,7 @@ def send_map(scene: Scene) -> None:
 
     Their corrections are true to scale.
     """
-    cells, unit = scene.watched.cells, unit_of(scene.workspace)
+    cells, unit = scene.watched.cells, scene.unit
     _, rows = scene.motion.measurements()
     points = rr.Points3D.columns(radii=(0.022 + 0.038 * cells.weights[rows].ravel()) * unit)
     cell = rr.Points3D(cells.centres, colors=NOMINAL)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import rerun as rr
 
-ARM = "the arm"  # the name of its view
+ARM, MAP = "the arm", "the map"  # names of their views
 # Plots have no clock of their own: that of the viewer counts iterations, so that their ticks do.
 CLOCK = "iterations"
 FRAMES_A_SECOND = 30

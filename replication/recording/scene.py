@@ -1,16 +1,16 @@
 """The entities of a recording: what stands still is static, the rest is sent as columns over time.
 
     /about                         the text
-    /workspace, /desired           the box of positions, and the shown test poses in it
     /legend                        what the colours mean
     /<learner>/<robot>             the meshes of the real arm that the learner moves
-    /<learner>/links               where its links are
-    /<learner>/tool                the pose of its tool
-    /<learner>/nominal             the arm that its controller assumes, as a skeleton
+    /<learner>/links               where its links and all grippers are
+    /<learner>/tool                its gripper
+    /<learner>/nominal             the arm that its controller assumes, as a skeleton with a gripper
     /<learner>/damage              where the arm is not what its controller assumes
     /<learner>/target              the pose that the arm is sent to, and a caption
-    /<learner>/reached             where the real arm lands
-    /<learner>/miss                lines to there from the desired positions
+    /<learner>/map/workspace       the box of positions
+    /<learner>/map/desired         positions of the shown test poses
+    /<learner>/map/miss            lines from there to where the real arm lands
     /<learner>/map/cells           the supernet's cells, lit by the neighbourhood of the last winner
     /<learner>/map/corrections     how far each cell has learned to move its position command
     /errors/<quantity>/<learner>   mean errors over all test poses
@@ -20,21 +20,49 @@ Timeline `iterations` runs through the three phases of `phases.Motion`.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import rerun as rr
+from scipy.spatial.transform import Rotation
 
-from recalib.nominal.poses import POSITION, Workspace
-from replication.recording.colours import GREY, WHITE, Colour
+from recalib.laboratory.scene import send_frame
+from recalib.nominal.poses import POSITION
+from recalib.nominal.robots import Robot
+from replication.recording.colours import GREY, NOMINAL, REACHED, WHITE, Colour
 from replication.recording.phases import CLOCK, Clock, Motion
 from replication.recording.sight import Sight
 from replication.recording.watched import Watched
 
 # of a picture whose half is 1 high
 TOP = 0.98  # where the caption stands
-LEGEND = 0.88, -0.44  # the first line of the legend, aside and above: below the base
-LINE = 0.12
-AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
+LEGEND = 1.0, -0.36  # the first line of the legend, aside and above: below the base
+LINE = 0.14
+# A gripper stands for a pose. Outwards from the arm and across, in units of `Scene.unit`: centres
+# of its stem, bar and fingers, and half their sizes without their thickness.
+CENTRES = np.array([(0.12, 0, 0), (0.24, 0, 0), (0.42, 0.18, 0), (0.42, -0.18, 0)])
+HALVES = np.array([(0.12, 0, 0), (0, 0.18, 0), (0.18, 0, 0), (0.18, 0, 0)])
+EDGE = 0.012  # radius of an outline's lines
+
+
+class Gripper(NamedTuple):
+    """A gripper as it is drawn.
+
+    Attributes:
+        half: of its thickness, in units of `Scene.unit`.
+        colour: of its boxes.
+        fill: whether they are solid, or their edges.
+    """
+
+    half: float
+    colour: Colour
+    fill: rr.components.FillMode
+
+
+# each fits into those before
+OUTLINE = Gripper(0.05, WHITE, rr.components.FillMode.MajorWireframe)
+REAL = Gripper(0.035, REACHED, rr.components.FillMode.Solid)
+ASSUMED = Gripper(0.03, NOMINAL, rr.components.FillMode.Solid)
 
 
 @dataclass(frozen=True)
@@ -43,10 +71,15 @@ class Scene:
 
     rec: rr.RecordingStream
     learner: str
-    workspace: Workspace
+    robot: Robot
     watched: Watched
     motion: Motion
     sight: Sight
+
+    @property
+    def unit(self) -> float:
+        """m: half a side of the workspace, on average, by which everything drawn is sized."""
+        return float(self.robot.workspace.half_ranges[POSITION].mean())
 
     def log(self, part: str, *what: rr.AsComponents) -> None:
         """Log what stands still."""
@@ -65,16 +98,9 @@ class Scene:
         self.log(part, style)
 
 
-def unit_of(workspace: Workspace) -> float:
-    """m: half a side of the workspace, on average, by which everything drawn is sized."""
-    return float(workspace.half_ranges[POSITION].mean())
-
-
-def log_surroundings(
-    rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, description: str
-) -> None:
-    """The text, the workspace's box and the desired poses (pose, 4, 4)."""
-    unit = unit_of(workspace)
+def log_surroundings(scene: Scene, description: str) -> None:
+    """The text, and around the map the workspace's box and the desired poses."""
+    rec, workspace, unit = scene.rec, scene.robot.workspace, scene.unit
     rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     rec.log("about", rr.TextDocument(description, media_type="text/markdown"), static=True)
     box = rr.Boxes3D(
@@ -84,9 +110,9 @@ def log_surroundings(
         radii=0.004 * unit,
         fill_mode=rr.components.FillMode.MajorWireframe,
     )
-    rec.log("workspace", box, static=True)
-    axes = rr.LineStrips3D(axes_of(desired, AXIS * unit), colors=WHITE, radii=0.013 * unit)
-    rec.log("desired", axes, static=True)
+    scene.log("map/workspace", box)
+    positions = scene.watched.desired[:, :3, 3]
+    scene.log("map/desired", rr.Points3D(positions, colors=WHITE, radii=OUTLINE.half * unit))
 
 
 def log_legend(rec: rr.RecordingStream, sight: Sight, lines: Mapping[str, Colour]) -> None:
@@ -104,15 +130,24 @@ def send_target(scene: Scene, captions: Sequence[str]) -> None:
     top = scene.sight.place(0, TOP)
     scene.log("target/caption", rr.Points3D([top], radii=0, colors=WHITE))
     scene.send("target/caption", clock, rr.Points3D.columns(labels=[captions[row] for row in rows]))
-    dot = rr.Points3D.from_fields(radii=0.052 * unit_of(scene.workspace), colors=WHITE)
-    scene.log("target/pose", dot)
-    visited = np.tile(scene.watched.desired[:, :3, 3], (2, 1))
+    visited = np.tile(scene.watched.desired, (2, 1, 1))
     departures = [rr.TimeColumn(CLOCK, sequence=motion.departures.ravel())]
-    scene.send("target/pose", departures, rr.Points3D.columns(positions=visited))
+    send_gripper(scene, "target/pose", departures, visited, OUTLINE)
 
 
-def axes_of(poses: np.ndarray, length: float) -> np.ndarray:
-    """The axes of poses (pose, 4, 4) as lines (pose x axis, 2, 3) of this length [m]."""
-    origins = np.repeat(poses[:, None, :3, 3], 3, axis=1)
-    tips = origins + length * np.swapaxes(poses[:, :3, :3], 1, 2)
-    return np.stack([origins, tips], axis=2).reshape(-1, 2, 3)
+def send_gripper(
+    scene: Scene, part: str, clock: Clock, poses: np.ndarray, gripper: Gripper
+) -> None:
+    """A gripper at poses (n, 4, 4) [m] over time."""
+    frame = f"{scene.learner}/{part}"
+    send_frame(scene.rec, f"{scene.learner}/links/{part}", frame, clock, poses)
+    turn, _ = Rotation.align_vectors(scene.robot.outward, (1, 0, 0))
+    boxes = rr.Boxes3D(
+        centers=scene.unit * turn.apply(CENTRES),
+        half_sizes=scene.unit * (HALVES + gripper.half),
+        quaternions=np.tile(turn.as_quat(), (len(CENTRES), 1)),
+        colors=gripper.colour,
+        radii=EDGE * scene.unit,
+        fill_mode=gripper.fill,
+    )
+    scene.log(part, boxes, rr.CoordinateFrame(frame))

@@ -91,14 +91,14 @@ def write_recording(path: Path, resolved: Resolved, learner: str, watched: Watch
     with whole(path) as temporary:
         # without the properties that Rerun would add by itself: one is the time of writing
         rec = rr.RecordingStream("recalib", recording_id=path.stem, send_properties=False)
-        rec.save(temporary, default_blueprint=arrange(watched, sight))
+        rec.save(temporary, default_blueprint=arrange(learner, watched, sight))
         rec.send_recording_name(path.stem)
         rec.send_property("run", rr.AnyValues(**captions.properties(resolved)))
         description = captions.description(resolved, watched)
-        log_surroundings(rec, robot.workspace, watched.desired, description)
         log_legend(rec, sight, captions.legend(resolved))
-        scene = Scene(rec, learner, robot.workspace, watched, motion, sight)
-        send_arms(scene, robot, damages)
+        scene = Scene(rec, learner, robot, watched, motion, sight)
+        log_surroundings(scene, description)
+        send_arms(scene, damages)
         send_target(scene, captions.progress(resolved, watched))
         send_errors(scene)
         send_landings(scene)

@@ -15,7 +15,7 @@ from tests.bars.paper_live import CONDITIONS, FIGURE, NOISY, scenario, study, tu
 FILM, SIZE = FIGURE.with_suffix(".webp"), (640, 480)
 LEARNER, SHOWN, GOALS = "improved", (0, 5, 20, 200), 3
 EVERY, LINGER, PACE = 12, 12, 60  # steps from a picture to the next; pictures at a goal; ms of each
-RED, GREEN = [0.84, 0.37, 0, 1], [0, 0.62, 0.45, 0.5]
+ORANGE, GREEN = [0.84, 0.37, 0, 1], [0, 0.62, 0.45, 0.5]
 
 
 class Filmed(PhysicsStation):
@@ -46,17 +46,17 @@ class Filmed(PhysicsStation):
             self.frames.append(self.frame())
 
     def frame(self) -> Image.Image:
-        """The arm, the desired position (green), the tool (red), and what they are."""
+        """The arm, the desired position (green), the tool (orange), and what they are."""
         self._renderer.update_scene(self._data, camera=self._view)
         scene = self._renderer.scene
-        balls = (self.pose()[:3, 3], 0.015, RED), (self.goal[:3, 3], 0.035, GREEN)
+        balls = (self.pose()[:3, 3], 0.028, ORANGE), (self.goal[:3, 3], 0.035, GREEN)
         for place, radius, color in balls:
             geom = scene.geoms[scene.ngeom]
             shape, size = mujoco.mjtGeom.mjGEOM_SPHERE, np.full(3, radius)
             mujoco.mjv_initGeom(geom, shape, size, place, np.eye(3).ravel(), np.array(color, "f4"))
             scene.ngeom += 1
         picture = Image.fromarray(self._renderer.render())
-        caption = f"improved map {self.caption}\ngreen: desired, red: tool"
+        caption = f"improved map {self.caption}\ngreen: desired, orange: tool"
         ImageDraw.Draw(picture).text((16, 12), caption, "black", ImageFont.load_default(20))
         return picture
 

@@ -130,7 +130,9 @@ def test_a_target_that_was_seen_in_one_region_alone_is_learned_in_all_parts():
     assert len(np.unique(folds[targets == 0].reshape(4, 8), axis=1).T) == 1
     joints = np.random.default_rng(4).uniform(-1, 1, (40, 6))
     units = np.array([1024, 1, 1, 1 / 1024, 1, 1])  # powers of two, which round nothing
-    here, there = (blocks(Observations(q, 0), postures_of(q)) for q in (joints, joints * units))
+    here, there = (
+        blocks(Observations(q, q[:, :3]), postures_of(q)) for q in (joints, joints * units)
+    )
     assert np.array_equal(here, there)
 
 

@@ -136,7 +136,10 @@ def test_an_impossible_convention_is_refused(convention, message):
     [((0, 1), 0.5), ((1, -0.1), 0.5), ((1, 1), 0), ((1, 1), 1.01), ((1, [1, np.nan]), 0.5)],
 )
 def test_impossible_widths_and_rates_are_refused(widths, rate):
-    with pytest.raises(InvalidSetting, match=r"width of a neighbourhood|learning rate"):
+    with pytest.raises(
+        InvalidSetting,
+        match=r"(final_widths|initial_rate) is .*expected: (above 0|an array of finite)",
+    ):
         Schedule(1.0, {"pose": widths}, rate, 0.1)
 
 

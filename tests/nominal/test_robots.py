@@ -19,6 +19,7 @@ def test_a_longer_tool_goes_on_outwards_along_the_axis_of_the_last_joint(name, p
     moved = (long.workspace.centre - short.workspace.centre)[:3]
     assert np.allclose(moved[:, :3], 0, atol=1e-12), "it does not turn"
     assert np.allclose(np.abs(moved[:, 3] @ jacobian[0, 3:, -1]), 0.12)
+    assert np.allclose(0.12 * short.workspace.centre[:3, :3] @ short.outward, moved[:, 3])
     wrist = short.arm.skeleton(short.home[None])[0, -2]
     ends = [np.linalg.norm(tool.workspace.centre[:3, 3] - wrist) for tool in (short, long)]
     assert ends[1] - ends[0] == pytest.approx(0.12)

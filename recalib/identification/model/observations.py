@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from recalib.errors import InvalidSetting, check_kind
 from recalib.identification.model.optics import Optics
 
 
@@ -37,6 +38,8 @@ class Observations:
         distances: known distances between sockets.
         times: (n,) s, in ascending order; None if none were recorded.
         optics: information of poses from cameras; None if all rows have equal weight.
+
+    Raises InvalidSetting: no array of joints, or another number of rows than it has.
     """
 
     joints: np.ndarray
@@ -48,6 +51,12 @@ class Observations:
     optics: Optics | None = None
 
     def __post_init__(self) -> None:
+        check_kind("joints", self.joints, np.ndarray)
+        for name in ("measured", "targets", "sockets", "times"):
+            values, count = getattr(self, name), len(self.joints)
+            if values is not None and np.shape(values)[:1] != (count,):
+                valid = f"an array of {count} rows, as of joints"
+                raise InvalidSetting(name, f"of shape {np.shape(values)}", valid)
         if self.targets is None:
             object.__setattr__(self, "targets", np.zeros(len(self.joints), dtype=int))
 

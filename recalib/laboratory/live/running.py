@@ -94,9 +94,9 @@ class RunningCalibration:
     def error(self, observations: Observations) -> float:
         """The predicted mean position error [m] in allowed postures.
 
-        It includes the noise, which cannot be told from errors that no parameter describes. The
-        parameters' uncertainty is scaled by how far the last rows were off predictions from those
-        before them. Infinite while there are too few rows.
+        It includes the noise, from which errors that no parameter describes cannot be
+        distinguished. The parameters' uncertainty is scaled by how far the last rows were off
+        predictions from those before them. Infinite while there are too few rows.
         """
         if len(observations) < FEWEST:
             return np.inf

@@ -17,7 +17,7 @@ from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import outcomes
 
 COMMITTED = "config.yaml", "pyproject.toml", "workflow/deviations.yaml"
-CAMPAIGN = "workflow/campaign/design.csv", "workflow/campaign/second.yaml"
+DESIGN = "workflow/campaign/design.csv"
 INITIAL, FINAL = (8.4, 4.7), (0.32, 0.23)  # cm, degrees
 
 
@@ -39,7 +39,7 @@ def project(tmp_path_factory) -> Callable[[Study, int], Path]:
 
     def make(study: Study, setups: int) -> Path:
         folder = tmp_path_factory.mktemp("project")
-        for name in (*COMMITTED, *CAMPAIGN):
+        for name in (*COMMITTED, DESIGN):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, folder / name)
         shutil.copytree(ROOT / "workflow" / "templates", folder / "workflow" / "templates")

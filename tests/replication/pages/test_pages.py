@@ -8,9 +8,8 @@ import pandas as pd
 import pytest
 import yaml
 
-from replication.config import FEWEST, read_study
+from replication.config import read_study
 from replication.pages import OUTCOME, Contents, pages_of, render, write
-from replication.pages.formats import short
 from replication.plots import Figure
 from replication.training import BOTH
 from tests.conftest import ROOT
@@ -29,12 +28,6 @@ def partial(study, project) -> Contents:
     return Contents(study, FIGURES, project(study, SOME))
 
 
-@pytest.fixture(scope="session")
-def too_few(study, project) -> Contents:
-    """Fewer setups than have a mean."""
-    return Contents(study, FIGURES, project(study, FEWEST - 1))
-
-
 def rows(page: str, head: str) -> list[list[str]]:
     """Cells of the table below a head."""
     lines = page.split(f"\n{head}\n", 1)[1].splitlines()[1:]
@@ -42,7 +35,7 @@ def rows(page: str, head: str) -> list[list[str]]:
     return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table]
 
 
-@pytest.mark.parametrize("contents", ["complete", "partial", "too_few"])
+@pytest.mark.parametrize("contents", ["complete", "partial"])
 def test_the_readme_is_read_in_three_minutes(contents, request):
     page = render("README.md", request.getfixturevalue(contents))
     assert len(page.split()) <= 700
@@ -93,35 +86,13 @@ def test_shares_of_an_error_are_in_percent_and_ratios_are_not(complete):
     assert "%" in slow.value and "%" not in slow.text(start)
 
 
-def test_an_incomplete_campaign_says_how_many_setups_were_measured(partial, too_few):
+def test_an_incomplete_campaign_says_how_many_setups_were_measured(partial):
     assert f"**{SOME} of {ALL} registered setups" in render("findings.md", partial)
+    assert "Missing: `mapping/solutions.parquet`." in render("findings.md", partial)
     assert f"{SOME} of {ALL} registered setups" in render("README.md", partial)
-    page = render("findings.md", too_few)
-    assert f"**{FEWEST - 1} of {ALL} registered setups" in page
-    assert f"No verdict follows from fewer than {FEWEST}." in page
-    assert "Missing: `mapping/solutions.parquet`." in page
-    cells = {cells[0]: cells[2:] for cells in rows(page, HEAD)}
-    (result,) = (result for claim, result in cells.items() if "make both errors small" in claim)
-    assert result == ["6.9 % (6 to 7.9 %) remains", "supported †"]
 
 
-def test_until_a_verdict_follows_the_number_so_far_stands_beside_the_earlier_one(too_few, complete):
-    so_far = too_few.claims["theta-increments"].so_far
-    least, most = so_far.interval
-    assert least < so_far.value < most
-    assert f"0.107), now {short(so_far.value)} |" in render("README.md", too_few)
-    sentence = f"{so_far.name} {too_few.claims['theta-increments'].text(so_far)}."
-    assert sentence in render("findings.md", too_few)
-    assert not any(claim.so_far for claim in complete.claims.values())
-
-
-def test_a_readme_without_any_setup_has_the_verdicts_of_the_second_campaign(study, project):
-    page = render("README.md", Contents(study, (), project(study, 0)))
-    assert "0 of 30 registered setups have been measured; until 20 are" in page
-    assert "supported †" in page
-
-
-@pytest.mark.parametrize("contents", ["complete", "too_few"])
+@pytest.mark.parametrize("contents", ["complete", "partial"])
 def test_what_a_run_prints_fits_a_terminal(contents, request):
     contents = request.getfixturevalue(contents)
     text = render(OUTCOME, contents)

@@ -30,7 +30,7 @@ def test_it_explains_the_arm_its_damage_and_what_came_of_it(columns):
     ):
         assert part in text
     legend = columns("/legend", "Points3D:labels")[1][0]
-    assert legend == ["desired pose", "pose reached", "damage", "assumed arm"]
+    assert legend == ["desired pose", "tool", "damage", "assumed arm"]
 
 
 def test_of_an_undamaged_arm_it_speaks_of_no_damage_and_no_misses(files):

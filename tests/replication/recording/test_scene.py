@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 from recalib import apply, position_error
 from replication.config import damages_among
 from replication.recording import (
-    AXIS,
     BEFORE,
     FRAMES_A_SECOND,
     POSES,
@@ -17,7 +16,6 @@ from replication.recording import (
     move,
     sight_of,
     typical_seed,
-    unit_of,
     visiting_order,
 )
 from replication.training import ERRORS, Stream
@@ -54,15 +52,6 @@ def placements(columns, entity) -> np.ndarray:
     return found
 
 
-def drawn_poses(strips, length) -> np.ndarray:
-    """The poses (pose, 4, 4) whose axes these strips are."""
-    ends = np.reshape(strips, (-1, 3, 2, 3))
-    found = np.tile(np.eye(4), (len(ends), 1, 1))
-    found[:, :3, 3] = ends[:, 0, 0]
-    found[:, :3, :3] = np.swapaxes(ends[:, :, 1] - ends[:, :, 0], 1, 2) / length
-    return found
-
-
 def test_errors_are_those_of_the_history(columns, files, seed):
     history = pd.read_parquet(files.histories[0]).query(f"seed == {seed}")
     for quantity in ERRORS:
@@ -81,9 +70,7 @@ def test_both_arms_move_as_their_kinematics_say(columns, robot, resolved):
     assert np.allclose(joints, bones)
     wrist = placements(columns, "/improved/links/wrist_3_link")
     offset = robot.arm.model.frames[robot.arm.model.getFrameId("tool0")].placement.homogeneous
-    tools = drawn_poses(
-        columns("/improved/tool", "LineStrips3D:strips")[1], AXIS * unit_of(robot.workspace)
-    )
+    tools = placements(columns, "/improved/links/tool")
     assert np.allclose(wrist @ offset, tools, atol=1e-5)
     assert np.allclose(bones[0], robot.arm.skeleton(robot.home[None])[0], atol=1e-6)
     assert np.allclose(tools[0], damaged.forward(robot.home[None])[0], atol=1e-5)
@@ -93,32 +80,34 @@ def test_the_nominal_arm_goes_where_it_is_sent_and_the_real_one_misses(
     columns, robot, resolved, goals
 ):
     """At rest at each pose before learning the skeleton is at the desired pose."""
-    length = AXIS * unit_of(robot.workspace)
     rests = np.arange(VISIT - 1, VISITS, VISIT)
     _, bones = columns("/improved/nominal/bones", "LineStrips3D:strips")
     assert np.allclose(np.reshape(bones, (-1, 8, 3))[rests, -1], goals[:, :3, 3], atol=1e-6)
-    _, desired = columns("/desired", "LineStrips3D:strips")
-    assert np.allclose(drawn_poses(desired, length), goals, atol=1e-5)
+    assert np.allclose(placements(columns, "/improved/links/nominal/tool")[rests], goals, atol=1e-5)
+    desired = placements(columns, "/improved/links/target/pose")
+    assert np.allclose(desired, np.concatenate([goals, goals]), atol=1e-5)
     controller = resolved.controller()
     landed = resolved.arm(robot).forward(controller.inverse(goals))
-    tools = drawn_poses(columns("/improved/tool", "LineStrips3D:strips")[1], length)
+    tools = placements(columns, "/improved/links/tool")
     assert np.allclose(tools[rests], landed, atol=1e-5)
-    _, reached = columns("/improved/reached", "LineStrips3D:strips")
-    assert np.allclose(drawn_poses(reached[0], length), landed, atol=1e-5)
-    assert np.allclose(drawn_poses(reached[-1], length), tools[rests - VISITS], atol=1e-5)
-    _, misses = columns("/improved/miss", "LineStrips3D:strips")
-    ends = np.stack([goals[:, :3, 3], landed[:, :3, 3]], axis=1)
-    assert np.allclose(misses[0], ends, atol=1e-6)
+    after = tools[rests - VISITS]
+    assert position_error(after, goals).mean() < 0.2 * position_error(landed, goals).mean()
+    _, misses = columns("/improved/map/miss", "LineStrips3D:strips")
+    for row, reached in ((0, landed), (-1, after)):
+        ends = np.stack([goals[:, :3, 3], reached[:, :3, 3]], axis=1)
+        assert np.allclose(misses[row], ends, atol=1e-5)
 
 
-def test_a_pose_that_is_hit_is_drawn_thin(columns, goals, robot):
-    """The orange lines end before the white ones: recalibration leaves a fifth of the misses."""
-    _, radii = columns("/improved/miss", "LineStrips3D:radii")
-    assert np.max(radii) == close(0.03 * unit_of(robot.workspace))
-    assert np.mean(radii[-1]) < 0.5 * np.mean(radii[0])
-    _, reached = columns("/improved/reached", "LineStrips3D:strips")
-    first, last = (drawn_poses(reached[row], AXIS * unit_of(robot.workspace)) for row in (0, -1))
-    assert position_error(last, goals).mean() < 0.2 * position_error(first, goals).mean()
+def test_the_tool_goes_on_from_the_arm_and_fits_into_the_desired_pose(columns, robot):
+    (_, inmost), (tool, inside), (desired, outside) = (
+        [
+            np.array(columns(f"/improved/{part}", f"Boxes3D:{key}")[1][0])
+            for key in ("centers", "half_sizes")
+        ]
+        for part in ("nominal/tool", "tool", "target/pose")
+    )
+    assert (tool @ robot.outward > 0).all() and (tool == desired).all()
+    assert (inmost > 0).all() and (inmost < inside).all() and (inside < outside).all()
 
 
 def test_damaged_links_joints_and_base_are_yellow(columns, robot):
@@ -147,7 +136,7 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
 ):
     _, arrows = columns("/improved/map/corrections", "Arrows3D:vectors")
     assert np.ptp(arrows[0]) == 0
-    _, misses = columns("/improved/miss", "LineStrips3D:strips")
+    _, misses = columns("/improved/map/miss", "LineStrips3D:strips")
     miss = np.diff(np.array(misses[0]), axis=1).mean(axis=(0, 1))
     made_up_for = -np.mean(arrows[-1], axis=0) @ miss
     assert made_up_for > 0.5 * miss @ miss
