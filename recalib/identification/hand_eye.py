@@ -241,11 +241,12 @@ def calibrate_hand_eye(sights: Sights) -> HandEye:
 
 
 def _weighed(found: HandEye) -> HandEye:
-    """The same, with weights by how far off poses are, in deviations."""
+    """The same, with weights by how far off poses are, in deviations; of the nearest, 1."""
     linear = LinearHandEye(found)
     rows = linear.residuals
     squares = np.einsum("ni,nij,nj->n", rows, linear.precisions, rows)
-    return replace(found, weights=FAR / np.maximum(squares, FAR))
+    far = max(FAR, squares.min())  # else none might count, by noise that is assumed too small
+    return replace(found, weights=far / np.maximum(squares, far))
 
 
 def starts(sights: Sights) -> Iterator[HandEye]:
