@@ -303,11 +303,12 @@ def test_an_end_that_moves_amid_the_poses_is_named(seed):
     shift = np.exp(rng.uniform(np.log(5 * cell.position), np.log(0.08))) * np.array([[0.6, 0, 0.8]])
     setattr(cell, end, getattr(cell, end) @ turned(0 * shift, shift)[0])
     poses = np.concatenate([still[:first], cell.board_poses(flange)[first:]])
-    (fault,) = moved_ends(calibrate_hand_eye(Sights(reported, poses, cell.in_hand)))
+    (fault,), fit = moved_ends(calibrate_hand_eye(Sights(reported, poses, cell.in_hand)))
     assert fault.kind == (SLIP if cell.in_hand == (end == "camera") else JUMP)
     assert abs(fault.row - first) <= 1
     assert fault.size == pytest.approx(np.linalg.norm(shift), rel=0.3)
-    assert not moved_ends(calibrate_hand_eye(Sights(reported, still, cell.in_hand)))
+    assert fit.accuracy[0] == pytest.approx(cell.position, rel=0.5)
+    assert not moved_ends(calibrate_hand_eye(Sights(reported, still, cell.in_hand)))[0]
 
 
 def test_a_camera_that_jumped_is_told_first(tmp_path, monkeypatch, capsys):

@@ -2,9 +2,8 @@
 
 It is looked for as in `sequence`, but without a model of the arm, whose errors change slowly with
 its pose, and so with the rows of a path. So what is found is undone, which shows the noise beside
-it. Next to errors of the flange that are polynomials of second degree in its pose, and as large as
-that noise, it has to be plain, too, by as many rows as there would be if those that follow each
-other were not alike.
+it. Next to errors of the flange that are linear in its pose, and as large as that noise, it has to
+be plain, too, by as many rows as there would be if those that follow each other were not alike.
 """
 
 from dataclasses import replace
@@ -33,26 +32,29 @@ from recalib.identification.hand_eye import (
 )
 from recalib.identification.model.linearisation import displaced
 
-Found = tuple[float, int, np.ndarray, slice]  # share, row, motion (6,), and of which end
+Motion = tuple[float, int, np.ndarray, slice]  # its share, first row, size (6,), and of which end
 
 
-def moved_ends(found: HandEye) -> list[Fault]:
-    """Jumps of what is next to the arm, or slips of what is on the flange."""
+def moved_ends(found: HandEye) -> tuple[list[Fault], HandEye]:
+    """Jumps of what is next to the arm, slips of what is on the flange, and a fit without them."""
     faults: list[Fault] = []
-    while len(faults) < MOST:
-        share, row, by, end = _plainest(found)
-        if share < SHARE:
+    for _ in range(MOST):
+        motion = _plainest(found)
+        if motion[0] < SHARE:
             break
-        sights, found = found.sights, calibrate_hand_eye(_undone(found, row, by, end))
-        residuals = _whitened(found)[0]
+        still = calibrate_hand_eye(_undone(found, motion))
+        residuals, _, _ = _whitened(still)
         alike = max(0.0, np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2))
-        share, row, by, end = _plainest(replace(found, sights=sights), alike)
+        beside = replace(still, sights=found.sights)
+        share, row, by, end = motion = _plainest(beside, alike)
         if share < SHARE:
             break
-        kind = SLIP if sights.in_hand == (end == CAMERA) else JUMP
+        kind = SLIP if found.sights.in_hand == (end == CAMERA) else JUMP
         size, turn = np.linalg.norm(by.reshape(2, 3), axis=1)
-        faults.append(Fault(kind, float(size), row, float(turn)))
-    return faults
+        if row not in [fault.row for fault in faults]:  # else it is what a large turn leaves
+            faults.append(Fault(kind, float(size), row, float(turn)))
+        found = calibrate_hand_eye(_undone(beside, motion))
+    return faults, found
 
 
 def _whitened(found: HandEye) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -65,7 +67,7 @@ def _whitened(found: HandEye) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return residuals, roots @ linear.slopes, by_flange
 
 
-def _plainest(found: HandEye, alike: float | None = None) -> Found:
+def _plainest(found: HandEye, alike: float | None = None) -> Motion:
     """The plainest motion of camera or board.
 
     Args:
@@ -77,7 +79,7 @@ def _plainest(found: HandEye, alike: float | None = None) -> Found:
     optics = slopes[..., TARGET.stop :] @ np.linalg.inv(np.linalg.cholesky(known)).T
     others, each = [slopes[..., : TARGET.stop], optics], 1.0
     if alike is not None:
-        by_pose = by_flange[..., None] * _polynomials(found.sights.flange)[:, None, None]
+        by_pose = by_flange[..., None] * _deviations(found.sights.flange)[:, None, None]
         others, each = [*others, by_pose.reshape(len(rows), 6, -1)], (1 + alike) / (1 - alike)
     rest = Unexplained(residuals, np.concatenate(others, axis=2), each)
     ends = (CAMERA, TARGET)
@@ -85,19 +87,17 @@ def _plainest(found: HandEye, alike: float | None = None) -> Found:
     return max(tried, key=lambda one: one[0])
 
 
-def _polynomials(flange: np.ndarray) -> np.ndarray:
-    """Of first and second degree (n, 27) in a flange's poses (n, 4, 4), over their deviations."""
+def _deviations(flange: np.ndarray) -> np.ndarray:
+    """Of a flange's poses (n, 4, 4) from their middle (n, 6), over the standard deviations."""
     turns = Rotation.from_matrix(flange[:, :3, :3])
-    turns = (turns * turns.mean().inv()).as_rotvec()
-    numbers = np.concatenate([flange[:, :3, 3], turns], axis=1)
+    numbers = np.hstack([flange[:, :3, 3], (turns * turns.mean().inv()).as_rotvec()])
     numbers -= numbers.mean(axis=0)
-    numbers /= np.maximum(numbers.std(axis=0), FINEST)
-    one, other = np.triu_indices(6)
-    return np.concatenate([numbers, numbers[:, one] * numbers[:, other]], axis=1)
+    return numbers / np.maximum(numbers.std(axis=0), FINEST)
 
 
-def _undone(found: HandEye, row: int, by: np.ndarray, end: slice) -> Sights:
+def _undone(found: HandEye, motion: Motion) -> Sights:
     """The sights as if an end had not moved from a row on: the flange did."""
+    _, row, by, end = motion
     sights, between = found.sights, found.sights.between.copy()
     if end == CAMERA:
         back = found.camera @ np.linalg.inv(displaced(found.camera, by))

@@ -113,8 +113,8 @@ class HandEyeResult:
             words = {"stands": stands, "moves": moves, "rows": rows[-1] + 1}
             none = {"folder": None, "sockets": False, "timed": False}
             yield render("fault.txt.j2", fault=own, **words, **none).strip()
-        yield from filter(None, (exchange_in(self.found, self.shown is None),))
-        yield from filter(None, (self.shown and self.shown.doubt,))
+        others = exchange_in(self.found, self.shown is None), self.shown and self.shown.doubt
+        yield from filter(None, others)
 
     def summary(self) -> str:
         """A page of text."""
@@ -214,7 +214,7 @@ def calibrate_poses(
     check_motion(sights)
     on_progress("camera and board")
     found = calibrate_hand_eye(sights)
-    faults = moved_ends(found)
-    check_fit(found, flange, targets, bool(faults))
+    faults, still = moved_ends(found)
+    check_fit(still, flange, targets)
     on_progress("errors of poses that are held out")
     return HandEyeResult(found, flange.table.path.name, held_out(found), pictures, faults)

@@ -62,24 +62,21 @@ def check_motion(sights: Sights) -> None:
         )
 
 
-def check_fit(
-    found: HandEye, flange: PoseTable, targets: PoseTable | None, moved: bool = False
-) -> None:
+def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> None:
     """Raise Mistaken if poses are likely wrong, or leave a place uncertain by decimetres.
 
     Args:
-        moved: whether it is known why they do not fit: an end of them moved.
         flange, targets: the tables that they are from; None if pictures show the target.
     """
     remaining = found.misfit
     fits = remaining < WRONG
     sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
     scale, deviation, left = min(sizes, key=lambda size: size[2])
-    if not moved and (fits or (left < EXPLAINED * remaining and deviation < SIZE)):
+    if fits or (left < EXPLAINED * remaining and deviation < SIZE):
         _check_size(scale, deviation)
     if not fits:
         _check_height(found.sights, remaining)
-        _check_readings(found.sights, flange, targets, remaining, moved)
+        _check_readings(found.sights, flange, targets, remaining)
     for part, name in enumerate(("camera", "board")):
         position, turn = found.deviations(part)
         if position > OPEN[0] or turn > OPEN[1]:
@@ -142,9 +139,9 @@ def _check_size(scale: float, deviation: float) -> None:
 
 
 def _check_readings(
-    sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float, moved: bool
+    sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
 ) -> None:
-    """Raise Mistaken if poses that are read otherwise fit much better, or nothing says why not."""
+    """Raise Mistaken if poses that are read otherwise fit much better."""
 
     def misfit(sights: Sights) -> float:
         return min(start.misfit for start in starts(sights))
@@ -157,7 +154,7 @@ def _check_readings(
     if best < EXPLAINED * misfit(sights):
         but = f"but they do ({1e3 * best:.3g} mm) if {words}"
         raise Mistaken(f"the poses do not fit as they are read {remain}, {but}")
-    if remaining > HOPELESS and not moved:
+    if remaining > HOPELESS:
         raise Mistaken(
             f"the poses do not fit in any direction and convention {remain}; are rows and"
             " pictures in the same order?"
