@@ -98,11 +98,10 @@ def _deviations(flange: np.ndarray) -> np.ndarray:
 def _undone(found: HandEye, motion: Motion) -> Sights:
     """The sights as if an end had not moved from a row on: the flange did."""
     _, row, by, end = motion
-    sights, between = found.sights, found.sights.between.copy()
+    camera, board, between = found.camera, found.board, found.sights.between.copy()
     if end == CAMERA:
-        back = found.camera @ np.linalg.inv(displaced(found.camera, by))
-        between[row:] = back @ between[row:]
+        between[row:] = camera @ np.linalg.inv(displaced(camera, by)) @ between[row:]
     else:
-        back = displaced(found.board, by) @ np.linalg.inv(found.board)
-        between[row:] = between[row:] @ back
-    return replace(sights, flange=np.linalg.inv(between) if sights.in_hand else between)
+        between[row:] = between[row:] @ displaced(board, by) @ np.linalg.inv(board)
+    flange = np.linalg.inv(between) if found.sights.in_hand else between
+    return replace(found.sights, flange=flange)

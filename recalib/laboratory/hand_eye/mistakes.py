@@ -170,11 +170,9 @@ def exchange_in(found: HandEye, by_table: bool) -> str | None:
         by_table: whether a table has the board's poses; pictures have them in one direction.
     """
     in_hand, board = found.sights.in_hand, found.sights.board[:, :3, 3]
-    names, ends = ("camera", "board"), (found.camera, found.board)
-    on_flange, in_base = (
-        float(np.linalg.norm(pose[:3, 3])) for pose in ends[:: 1 if in_hand else -1]
-    )
-    held, other = names[:: 1 if in_hand else -1]
+    order = slice(None, None, 1 if in_hand else -1)  # what is on the flange first
+    held, other = ("camera", "board")[order]
+    on_flange, in_base = (np.linalg.norm(end[:3, 3]) for end in (found.camera, found.board)[order])
     far = on_flange > max(HELD, LONGER * in_base)
     behind = np.median(board[:, 2] / np.linalg.norm(board, axis=1)) < BEHIND
     side = f"--camera {'fixed' if in_hand else 'hand'}"
