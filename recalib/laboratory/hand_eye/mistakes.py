@@ -170,9 +170,9 @@ def exchange_in(found: HandEye, by_table: bool) -> str | None:
         by_table: whether a table has the board's poses; pictures have them in one direction.
     """
     in_hand, board = found.sights.in_hand, found.sights.board[:, :3, 3]
-    order = slice(None, None, 1 if in_hand else -1)  # what is on the flange first
-    held, other = ("camera", "board")[order]
-    on_flange, in_base = (np.linalg.norm(end[:3, 3]) for end in (found.camera, found.board)[order])
+    ends = [("camera", found.camera), ("board", found.board)]
+    (held, on_it), (other, in_it) = ends if in_hand else ends[::-1]  # flange, then base
+    on_flange, in_base = (float(np.linalg.norm(pose[:3, 3])) for pose in (on_it, in_it))
     far = on_flange > max(HELD, LONGER * in_base)
     behind = np.median(board[:, 2] / np.linalg.norm(board, axis=1)) < BEHIND
     side = f"--camera {'fixed' if in_hand else 'hand'}"
