@@ -30,7 +30,8 @@ from recalib.identification.model.linearisation import LEVER, displaced, displac
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 
-ENDS = 12  # parameters of camera and board
+CAMERA, TARGET = slice(6), slice(6, 12)  # which parameters are of the camera and of the board
+ENDS = TARGET.stop
 EXACT = 1e-12  # m^2, rad^2: the variance of a pose that a table gives
 OUTLIER = 0.25  # the weight of a pose that is doubted
 STEPS, ROUNDS, SMALL = 40, 20, 1e-8  # of a fit; of the noise and the weights; m, rad
@@ -264,11 +265,12 @@ def upended(flange: np.ndarray, board: np.ndarray) -> np.ndarray:
 
 
 def _weighed(found: HandEye) -> HandEye:
-    """The same, with weights by how far off poses are, in deviations."""
+    """The same, with weights by how far off poses are, in deviations; of the nearest, 1."""
     linear = LinearHandEye(found)
     rows = linear.residuals
     squares = np.einsum("ni,nij,nj->n", rows, linear.precisions, rows)
-    return replace(found, weights=FAR / np.maximum(squares, FAR))
+    far = max(FAR, squares.min())  # else none might count, by noise that is assumed too small
+    return replace(found, weights=far / np.maximum(squares, far))
 
 
 def starts(sights: Sights) -> Iterator[HandEye]:

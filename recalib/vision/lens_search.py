@@ -37,12 +37,14 @@ class FoundLens:
         error: px, the root mean square of what remains along an axis, over the degrees of freedom.
         evidence: the logarithm of the model's, by Schwarz' criterion, up to a constant.
         converged: whether the search came to its end.
+        deviations: (2,) px, standard deviations of the focal lengths along x and y.
     """
 
     lens: Lens
     error: float
     evidence: float
     converged: bool
+    deviations: np.ndarray
 
 
 def find_lens(views: Sequence[View], size: tuple[int, int]) -> FoundLens:
@@ -126,7 +128,9 @@ def _best_from(views: Sequence[View], lens: Lens) -> FoundLens:
     squares = max(here.squares, here.free * LEAST_NOISE**2)
     count = len(here.gradient)
     evidence = -here.free / 2 * np.log(squares) - count / 2 * np.log(here.free)
-    return FoundLens(lens, float(np.sqrt(here.variance)), float(evidence), converged)
+    focal = np.linalg.inv(_precision(lens, here)).diagonal()[:2]
+    deviations = np.sqrt(here.variance * focal)
+    return FoundLens(lens, float(np.sqrt(here.variance)), float(evidence), converged, deviations)
 
 
 def _gain(views: Sequence[View], lens: Lens) -> float:

@@ -18,11 +18,13 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
+from recalib.identification.checks.moved import moved_ends
+from recalib.identification.checks.sequence import JUMP, SLIP
 from recalib.identification.hand_eye import Sights, calibrate_hand_eye, held_out
 from recalib.identification.model import displacements
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.hand_eye.calibrating import calibrate_poses
-from recalib.laboratory.hand_eye.mistakes import Mistaken, board_size
+from recalib.laboratory.hand_eye.mistakes import Mistaken, board_size, exchange_in
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.laboratory.pictures.observed import Observed, Picture
 from recalib.laboratory.tables.table import Table
@@ -328,6 +330,56 @@ def test_what_cannot_be_is_named_in_one_sentence(fault, seed, in_hand, way):
     lines = [line for line in stderr.getvalue().splitlines() if not line.startswith("...")]
     expected = fault.message + SIDES[in_hand] * fault.otherwise
     assert code == REFUSED and len(lines) == 1 and expected in lines[0], lines
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_an_end_that_moves_amid_the_poses_is_named(seed):
+    """From five deviations of the noise up to 80 mm; without it nothing is."""
+    cell, rng = HandEyeCell(seed, bool(seed % 2)), np.random.default_rng([seed, 45])
+    end, count = ("camera", "target")[seed // 2 % 2], int(rng.integers(30, 60))
+    first, flange = int(rng.integers(5, count - 4)), cell.flange(count)
+    still, reported = cell.board_poses(flange), cell.reported(flange)
+    shift = np.exp(rng.uniform(np.log(5 * cell.position), np.log(0.08))) * np.array([[0.6, 0, 0.8]])
+    setattr(cell, end, getattr(cell, end) @ turned(0 * shift, shift)[0])
+    poses = np.concatenate([still[:first], cell.board_poses(flange)[first:]])
+    (fault,), fit = moved_ends(calibrate_hand_eye(Sights(reported, poses, cell.in_hand)))
+    assert fault.kind == (SLIP if cell.in_hand == (end == "camera") else JUMP)
+    assert abs(fault.row - first) <= 1
+    assert fault.size == pytest.approx(np.linalg.norm(shift), rel=0.3)
+    assert fit.accuracy[0] == pytest.approx(cell.position, rel=0.5)
+    assert not moved_ends(calibrate_hand_eye(Sights(reported, still, cell.in_hand)))[0]
+
+
+def test_a_camera_that_jumped_is_told_first(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    cell = HandEyeCell(4, False)
+    flange = cell.flange(30)
+    poses = cell.board_poses(flange)
+    poses[12:] = turned(np.zeros((1, 3)), np.array([[0.0, 0.06, 0.0]])) @ poses[12:]
+    (tmp_path / "poses.txt").write_text(written(cell.reported(flange)))
+    (tmp_path / "targets.txt").write_text(written(poses))
+    assert calibrate() != REFUSED
+    words = "Careful: between rows 12 and 13 camera or base seem to have moved by 60 mm"
+    assert words in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("wrong", ["flange targets", "flange", "targets"])
+@given(st.integers(0, 10_000), st.booleans())
+@settings(max_examples=3, deadline=None)
+def test_two_mistakes_that_fit_together_are_doubted(wrong, seed, in_hand):
+    """Tables that are inverted, both, or one by a camera on the other side."""
+    cell = HandEyeCell(seed, in_hand)
+    flange = cell.flange(POSES)
+    poses, targets = cell.reported(flange), cell.board_poses(flange)
+    if "flange" in wrong:
+        poses = np.linalg.inv(poses)
+    if "targets" in wrong:
+        targets = np.linalg.inv(targets)
+    otherwise = " " not in wrong
+    found = calibrate_hand_eye(Sights(poses, targets, in_hand != otherwise))
+    doubt = exchange_in(found, True)
+    assert f"--inverse {wrong}" + f" and --camera {SIDES[in_hand]}" * otherwise in doubt
+    assert exchange_in(calibrate_hand_eye(cell.sights(POSES)), False) is None
 
 
 @pytest.mark.parametrize("in_hand", [False, True])

@@ -1,15 +1,24 @@
 """Hand-eye calibration from flange poses and pictures or poses of a board, and its files."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from recalib.errors import InvalidFile
+from recalib.identification.checks.moved import moved_ends
+from recalib.identification.checks.sequence import Fault
 from recalib.identification.hand_eye import HandEye, Sights, calibrate_hand_eye, held_out, upended
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.calibrate import Progress
-from recalib.laboratory.hand_eye.mistakes import FEWEST, WRONG, check_fit, check_motion
+from recalib.laboratory.hand_eye.mistakes import (
+    FEWEST,
+    WRONG,
+    check_fit,
+    check_motion,
+    exchange_in,
+)
 from recalib.laboratory.hand_eye.pose_table import PoseTable
 from recalib.laboratory.pictures.observe import observe, pictures_in
 from recalib.laboratory.pictures.observed import LENS, SETUP, Observed, views_of
@@ -89,13 +98,31 @@ def calibrate_poses(
     check_motion(sights)
     on_progress("camera and board")
     found = calibrate_hand_eye(sights)
-    check_fit(found, flange, targets)
+    faults, still = moved_ends(found)
+    check_fit(still, flange, targets)
     on_progress("errors of poses that are held out")
     good = found.misfit <= WRONG and len(found.outliers) / len(flange) <= MOST
-    return _files(found, flange.table.path.name, pictures, good), good
+    doubts = [*_doubts(found, pictures, faults)]
+    return _files(found, flange.table.path.name, pictures, doubts, good), good
 
 
-def _files(found: HandEye, table: str, shown: Observed | None, good: bool) -> dict[str, bytes]:
+def _doubts(found: HandEye, shown: Observed | None, faults: Sequence[Fault]) -> Iterator[str]:
+    """Warnings, each without its full stop, of what moved amid the poses and of the rest."""
+    rows, in_hand = [*range(len(found.sights))], found.sights.in_hand
+    if shown is not None:
+        rows = [picture.row - 1 for picture in shown.used]
+    stands, moves = ("the camera", "the board")[:: -1 if in_hand else 1]
+    for fault in faults:
+        own = replace(fault, row=rows[fault.row])
+        words = {"stands": stands, "moves": moves, "rows": rows[-1] + 1}
+        none = {"folder": None, "sockets": False, "timed": False}
+        yield render("fault.txt.j2", fault=own, **words, **none).strip()
+    yield from filter(None, (exchange_in(found, shown is None), shown and shown.doubt))
+
+
+def _files(
+    found: HandEye, table: str, shown: Observed | None, doubts: Sequence[str], good: bool
+) -> dict[str, bytes]:
     """All files, by a table of flange poses and what pictures show, if there are any.
 
     Errors are of each pose by a calibration without it. Their mean squares leave outliers out.
@@ -116,6 +143,7 @@ def _files(found: HandEye, table: str, shown: Observed | None, good: bool) -> di
         "found": found,
         "table": table,
         "shown": shown,
+        "doubts": doubts,
         "good": good,
         "places": hand_eye_places(found, ("the camera", "the board"), links),
         "pixels": _rms(pixels[counted]),

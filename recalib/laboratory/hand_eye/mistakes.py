@@ -28,6 +28,8 @@ OPEN = 0.05, np.radians(5)  # m, rad: a deviation as large is no result
 LOOSE = 1e-2  # a singular value so small, over the largest, leaves a direction open
 OPEN_SIZE = 0.1  # of such a direction: then it is one of the size
 SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it has to be off
+HELD, LONGER = 0.3, 2.0  # m; times as far: what is on a flange is seldom farther from it
+BEHIND = -0.5  # along the camera's z axis, of a distance
 TILT = "try: poses that are tilted by 20 deg or more, about two axes"
 
 
@@ -162,6 +164,34 @@ def _check_readings(
             f"the poses do not fit in any direction and convention {remain}; are rows and"
             " pictures in the same order?"
         )
+
+
+def exchange_in(found: HandEye, by_table: bool) -> str | None:
+    """Why two mistakes are likely that fit together, as both tables inverted; None if they are not.
+
+    They exchange camera and board, or what is on the flange and what is in the base.
+
+    Args:
+        by_table: whether a table has the board's poses; pictures have them in one direction.
+    """
+    in_hand, board = found.sights.in_hand, found.sights.board[:, :3, 3]
+    ends = [("camera", found.camera), ("board", found.board)]
+    (held, on_it), (other, in_it) = ends if in_hand else ends[::-1]  # flange, then base
+    on_flange, in_base = (float(np.linalg.norm(pose[:3, 3])) for pose in (on_it, in_it))
+    far = on_flange > max(HELD, LONGER * in_base)
+    behind = np.median(board[:, 2] / np.linalg.norm(board, axis=1)) < BEHIND
+    side = f"--camera {'fixed' if in_hand else 'hand'}"
+    if far:
+        tries = ["--inverse flange targets"] * by_table + [f"--inverse flange and {side}"]
+        return (
+            f"the {held} would be {1e3 * on_flange:.0f} mm from the flange, and the {other}"
+            f" {1e3 * in_base:.0f} mm from the base's origin; if they are not, try: "
+            f"{' or '.join(tries[: 1 if behind else 2])}"
+        )
+    if behind:
+        found_at = "the board would be behind the camera, whose z axis points ahead"
+        return f"{found_at}; if it does, try: --inverse targets and {side}"
+    return None
 
 
 def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, np.ndarray]]:

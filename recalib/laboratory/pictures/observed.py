@@ -25,6 +25,7 @@ LEAST = 0.5  # px: a reprojection error as small is never a reason
 # What a given lens may leave, over one from the pictures: it is as good, or cannot be the same.
 SIMILAR, OTHER = 1.1, 5.0
 CHANCE = 10.0  # how much more a given lens leaves by chance, to a parameter, over the noise
+SURE, ZOOMED = 5.0, 0.01  # deviations of focal lengths, and the part by which none may be off
 UNSETTLED = (
     "the estimation of the lens did not converge; try: pictures that"
     " show the board tilted, near and far, and in all parts of the picture"
@@ -136,13 +137,18 @@ def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str |
     left = reprojection_error(views, given)
     free = sum(2 * len(view.numbers) - 6 for _, view in views)
     surplus = free * ((left / own.error) ** 2 - 1) / len(optics_kinds(own.lens))
-    if left <= SIMILAR * own.error or surplus < CHANCE:
+    known, focal = (lens.matrix.diagonal()[:2] for lens in (given, own.lens))
+    off = np.abs(known - focal)
+    sure = (off > SURE * own.deviations) & own.converged
+    if not sure.any() and (left <= SIMILAR * own.error or surplus < CHANCE):
         return None
+    lengths, others = (f"{x:.1f} and {y:.1f}" for x, y in (known, focal))
     found = (
-        f"the given lens has a reprojection error of {left:.3g} px in these pictures; one estimated"
-        f" from them, {own.lens.model}, has {own.error:.3g} px"
+        f"the given lens has focal lengths of {lengths} px, and a reprojection error of"
+        f" {left:.3g} px in these pictures; one estimated from them, {own.lens.model},"
+        f" has {others} px (deviation {own.deviations.max():.2g} px), and {own.error:.3g} px"
     )
-    if left > max(OTHER * own.error, LEAST):
+    if left > max(OTHER * own.error, LEAST) or (sure & (off > ZOOMED * focal)).any():
         raise RecalibError(f"{found}: it is not this camera's; try: without --lens")
     return f"{found}; check that it belongs to this camera and that focus and zoom are unchanged"
 
