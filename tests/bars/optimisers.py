@@ -1,7 +1,7 @@
 """CMA-ES next to differential evolution: python -m tests.bars.optimisers [TRIALS].
 
-Each searches twice with equal trials, by other seeds and on other poses. What its two winners leave, on fresh poses,
-says how good an optimiser is and how much luck it leaves.
+Each searches twice with equal trials, by other seeds and on other poses. What its two winners
+leave, on fresh poses, says how good an optimiser is and how much luck it leaves.
 """
 
 import sys
