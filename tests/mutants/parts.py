@@ -37,7 +37,7 @@ PARTS = {
     "laboratory": Part(
         ("recalib/laboratory",), ("tests/laboratory", "tests/vision", "tests/station")
     ),
-    "station": Part(("recalib/station",), ("tests/station", "tests/vision/test_stations.py")),
+    "station": Part(("recalib/station",), ("tests/station",)),
     "vision": Part(("recalib/vision",), ("tests/vision",)),
     "recording": Part(("replication/recording",), ("tests/replication/recording",)),
     "nominal": Part(
