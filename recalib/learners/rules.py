@@ -12,7 +12,13 @@ import numpy as np
 from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_kind, check_name
 from recalib.learners.nets import CENTRES
-from recalib.learners.schedules import DIMENSIONS, EXPONENTIAL, RATES, SPREADS
+from recalib.learners.schedules import (
+    DIMENSIONS,
+    EXPONENTIAL,
+    RATES,
+    SPREADS,
+    equal_visits,
+)
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
@@ -93,7 +99,7 @@ class Rules:
     @property
     def width_power(self) -> float:
         """The power of widths that is linear in time; see `recalib.learners.schedules`."""
-        return float(SPREADS[self.spread] - self.dimensions) if self.equal_visits else EXPONENTIAL
+        return equal_visits(self.dimensions, self.spread) if self.equal_visits else EXPONENTIAL
 
     @property
     def rate_power(self) -> float:

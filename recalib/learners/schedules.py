@@ -22,7 +22,17 @@ from recalib.learners.kernels import fall as fall
 EXPONENTIAL, LINEAR = 0.0, 1.0  # powers
 RATES = {"linear": LINEAR, "exponential": EXPONENTIAL}
 DIMENSIONS = 3  # of each net's centres: positions for a supernet, orientations for a subnet
-SPREADS = {"widths": 1, "logarithms": 0}  # what equal visits are spread over: p + n
+SPREADS = {"widths": 1, "logarithms": 0}  # what equal visits are spread over, and its power
+
+
+def equal_visits(dimensions: int = DIMENSIONS, spread: str = "widths") -> float:
+    """The power for the same mean number of visits at every width (section 6).
+
+    Args:
+        dimensions: n of (10), at least 2.
+        spread: what visits are spread over evenly, of `SPREADS`.
+    """
+    return float(SPREADS[spread] - dimensions)
 
 
 def expected_learning(
@@ -30,7 +40,10 @@ def expected_learning(
 ) -> float | np.ndarray:
     """L of (10): what a cell far from the border learns in one iteration, on average.
 
-    By the width of the Gaussians, and the dimensions and the volume of the space of winners.
+    Args:
+        width: of the Gaussians.
+        dimensions: of the space in which the winners lie.
+        volume: of the workspace there.
     """
     return np.power(width, dimensions) * (2 * np.pi) ** (dimensions / 2) / volume
 

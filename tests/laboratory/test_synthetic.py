@@ -108,7 +108,7 @@ def test_files_hold_what_the_result_says(name, calibration_of):
     assert [*offsets] == [*result.arm.joints]
     assert [*offsets.values()] == pytest.approx(scales * identified)
     rows = list(csv.DictReader(files["rows.csv"].decode().splitlines()))
-    chosen = result.validation.errors("in blocks", result.validation.chosen)[:, 0]
+    chosen = result.validation.held_out["in blocks"][result.validation.chosen].errors[:, 0]
     assert [float(row["after [mm]"]) for row in rows] == pytest.approx(1e3 * chosen, rel=1e-4)
     outliers = [int(row["row"]) for row in rows if row["outlier"] == "yes"]
     assert outliers == result.doubted.tolist() and (name != "poses" or 7 in outliers)

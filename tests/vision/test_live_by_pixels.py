@@ -172,7 +172,7 @@ def test_a_picture_with_few_good_corners_is_no_sight_of_the_board(tmp_path, monk
     def few(board, lens, view):
         return Corners(view.numbers[:7], view.pixels[:7], view.softness)
 
-    monkeypatch.setattr("recalib.station.pictures.good_corners", few)
+    monkeypatch.setattr("recalib.vision.views.good_corners", few)
     pictures = BoardInPictures(cell.board, cell.lens, False)
     assert PicturesOfABoard(Photographs(path), pictures).measure() is None
 
