@@ -23,7 +23,7 @@ def test_what_is_said_holds_where_a_posture_has_three_targets(name):
     found = validate(arm, known, initial_frames(arm, known))
     assert len(found.postures) == 150
     for kind in (GEOMETRIC, HYBRID):
-        reported = found.errors(RANDOM, kind)[found.counted, 0].mean()
+        reported = found.held_out[RANDOM][kind].errors[found.counted, 0].mean()
         assert reported == pytest.approx(distances(found.full[kind], fresh).mean(), rel=0.2)
 
 
