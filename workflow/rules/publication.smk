@@ -2,6 +2,7 @@
 
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.meshes import mesh_files
+from replication.config.shipped import DEVIATIONS
 from replication.config.switches import IMPROVED
 from replication.pages.names import OUTCOME, pages_of
 from replication.plots.figures import Figure, figures_of
@@ -15,6 +16,9 @@ PAGES = [f"{RESULTS}/pages/{page}" for page in pages_of(STUDY)]
 RECORDINGS = [f"{RESULTS}/recordings/{place.scenario}.rrd" for place in recorded_places(STUDY)]
 FINDINGS = f"{RESULTS}/claims.json"
 CHECK = [f"{RESULTS}/check.txt"] if STUDY.expected else []
+# What pages say besides results. Relative: a project that was moved does not begin again.
+QUOTED = ["pyproject.toml", "CITATION.cff", "config.yaml", DEVIATIONS]
+QUOTED += [os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*"))]
 
 
 rule figures:
@@ -61,9 +65,7 @@ rule pages:
     input:
         EVIDENCE,
         FINDINGS,
-        "pyproject.toml",
-        # relative: a project that was moved does not begin again
-        templates=[os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*"))],
+        QUOTED,
         figures=FIGURES,
     output:
         pages=PAGES,
@@ -167,6 +169,7 @@ for part, (tables, figure, page) in APART.items():
         name:
             f"{part}_page"
         input:
+            QUOTED,
             tables=[f"{RESULTS}/{table}" for table in tables],
             figures=made,
         output:
