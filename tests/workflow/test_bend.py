@@ -1,5 +1,6 @@
 """A study of one's own: as docs/bend.md has it, by the commands that the page names."""
 
+import os
 import re
 import sys
 from subprocess import CompletedProcess
@@ -70,10 +71,11 @@ def test_a_study_without_a_file_is_refused(project):
 def test_a_file_that_snakemake_cannot_read_is_named(text, message, project):
     (project / "my_leg.yaml").write_text(text, encoding="utf-8")
     commands = make(project, "study", "STUDY=my_leg").stdout
-    reading = "-m replication.config.reading"
+    reading, here = "-m replication.config.reading", os.environ | {"PYTHONPATH": str(ROOT)}
     assert f"{reading} my_leg.yaml\n" in commands
     for name, says in (("my_leg.yaml", f"my_leg.yaml:{message}\n"), ("my_arm.yaml", "")):
-        assert run(sys.executable, *reading.split(), name, cwd=project).stderr == says
+        read = run(sys.executable, *reading.split(), name, cwd=project, env=here)
+        assert read.stderr == says
 
 
 @pytest.mark.slow
