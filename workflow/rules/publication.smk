@@ -17,8 +17,8 @@ RECORDINGS = [f"{RESULTS}/recordings/{place.scenario}.rrd" for place in recorded
 FINDINGS = f"{RESULTS}/claims.json"
 CHECK = [f"{RESULTS}/check.txt"] if STUDY.expected else []
 # What pages say besides results. Relative: a project that was moved does not begin again.
-QUOTED = ["pyproject.toml", "CITATION.cff", "config.yaml", DEVIATIONS]
-QUOTED += [os.path.relpath(path) for path in sorted(ROOT.glob("workflow/templates/*"))]
+QUOTED = ["pyproject.toml", *map(os.path.relpath, sorted(ROOT.glob("workflow/templates/*")))]
+QUOTED += ["CITATION.cff", "config.yaml", DEVIATIONS] * IS_SHIPPED
 
 
 rule figures:
