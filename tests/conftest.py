@@ -43,8 +43,8 @@ settings.register_profile("untimed", deadline=None)  # what is compiled takes se
 settings.load_profile("untimed")
 
 ROOT = Path(__file__).parents[1]
-PARTS = [".gitignore", "Snakefile", "config.yaml", "pyproject.toml", "README.md", "workflow"]
-PARTS += ["recalib", "profiles", "replication", "tests", "docs", "figures"]
+PARTS = [".gitignore", "Snakefile", "config.yaml", "pyproject.toml", "CITATION.cff", "README.md"]
+PARTS += ["workflow", "recalib", "profiles", "replication", "tests", "docs", "figures"]
 SHARED = "figures", "rules"  # fixtures that one process makes for all
 
 
