@@ -113,7 +113,7 @@ witness: setup ## train variants of three setups in a second implementation, fro
 check: setup ## only compare the final errors with their bands
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
 
-bench: setup ## measure moves per second, and their ratio to a bare loop
+bench: setup ## measure how long a move takes, with learning and without
 	$(SNAKEMAKE) --quiet rules reason host -- results/robots/ur10/links_encoders.json
 	.venv/bin/python -m tests.bars.moves results/robots/ur10/links_encoders.json
 

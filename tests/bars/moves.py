@@ -1,18 +1,28 @@
-"""How fast moves are, and a bare loop of Pinocchio: python -m tests.bars.moves SCENARIO.json."""
+"""How long a move takes, with and without learning: python -m tests.bars.moves SCENARIO.json.
+
+Next to the improved system's training stand its kernels of moves alone, in one call, and a bare
+loop of Pinocchio. All in processor time and in turn, since the machine may be shared.
+"""
 
 import sys
-from timeit import timeit
+from collections.abc import Callable
+from time import process_time
 
 import numpy as np
 import pinocchio as pin
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.plant import Plant
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import IMPROVED
+from recalib.learners.schedules import Schedule
+from recalib.loop.training import train
 from recalib.nominal.kinematics import tool_frame
 from recalib.nominal.robots import Robot
 from replication.scenarios.plants import Resolved
 
-RUNS, MOVES, REPEATS = 20, 500, 5
+RUNS, MOVES, REPEATS = (1, 6, 60), 12_000, 5
+SCHEDULE = Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4)
 
 
 def bare_loop(robot: Robot, arm: DamagedArm, angles: np.ndarray) -> None:
@@ -26,26 +36,35 @@ def bare_loop(robot: Robot, arm: DamagedArm, angles: np.ndarray) -> None:
         pin.updateFramePlacement(damaged, damaged_data, frame)
 
 
+def seconds(work: Callable[[], object]) -> float:
+    """The processor time that work takes."""
+    started = process_time()
+    work()
+    return process_time() - started
+
+
 def main(scenario: str) -> None:
-    """Print a line for moves, one for the bare loop, and one for their ratio."""
-    resolved = Resolved.read(scenario)
+    """Print how many microseconds a move takes for each number of runs."""
+    resolved, rng = Resolved.read(scenario), np.random.default_rng(0)
     controller = resolved.controller()
     robot, arm = controller.robot, resolved.arm(controller.robot)
-    plant, rng = Plant(controller, arm), np.random.default_rng(0)
-    commands = rng.uniform(-1, 1, (MOVES, RUNS, 1, 6))
-    angles = controller.inverse(robot.workspace.to_poses(commands.reshape(-1, 6)))
-    # Both in turn, and the ratio pair by pair: the machine may be shared.
-    pairs = [
-        (
-            timeit(lambda: [plant.execute(command) for command in commands], number=1),
-            timeit(lambda: bare_loop(robot, arm, angles), number=1),
-        )
-        for _ in range(REPEATS)
-    ]
-    move_time, bare = np.median(pairs, axis=0) / len(angles)
-    print(f"moves, {RUNS} runs side by side: {1 / move_time:,.0f} a second")
-    print(f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second")
-    print(f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}")
+    for runs in RUNS:
+        poses = rng.uniform(-1, 1, (runs, MOVES // runs, 6))
+        desired, tests = poses[:, ::2], poses[:, :1]  # an iteration is two moves
+        angles = controller.inverse(robot.workspace.to_poses(poses.reshape(-1, 6)))
+        ways: dict[str, Callable[[], object]] = {
+            "learning": lambda desired=desired, tests=tests, runs=runs: train(
+                Plant(controller, arm),
+                HierarchicalLearner(IMPROVED, SCHEDULE, runs=runs),
+                *(desired, tests, [desired.shape[1]]),
+            ),
+            "kernels alone": lambda poses=poses: Plant(controller, arm).execute(poses),
+            "Pinocchio": lambda angles=angles: bare_loop(robot, arm, angles),
+        }
+        times = [[seconds(work) for work in ways.values()] for _ in range(REPEATS)]
+        each = 1e6 * np.median(times, axis=0) / MOVES
+        words = ", ".join(f"{way} {time:5.2f}" for way, time in zip(ways, each, strict=True))
+        print(f"{runs:2} runs, us a move: {words}")
 
 
 if __name__ == "__main__":
