@@ -145,8 +145,8 @@ class Calibration:
         if self.pattern is None:
             return poses
         base, target = self.frames.base, self.frames.targets[0]
-        seen = self._shifted(base @ poses @ target, joints)
-        return np.linalg.inv(base) @ seen @ np.linalg.inv(target)
+        observed = self._shifted(base @ poses @ target, joints)
+        return np.linalg.inv(base) @ observed @ np.linalg.inv(target)
 
     def _shifted(
         self, poses: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
