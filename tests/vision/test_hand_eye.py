@@ -188,6 +188,10 @@ def test_matrices(rows, count, length, tmp_path):
     own = (", ".join(f"{number:.9f}" for number in line) for line in lines)
     (path := tmp_path / "poses.txt").write_text("\n".join([str(length), *own]))
     assert read_poses(path).poses == pytest.approx(poses, abs=1e-6)
+    if count == 16:
+        np.savetxt(path, poses.swapaxes(1, 2).reshape(lines.shape))
+        with pytest.raises(InvalidFile, match="is it transposed"):
+            read_poses(path)
 
 
 @pytest.mark.parametrize(
