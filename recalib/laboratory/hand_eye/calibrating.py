@@ -137,7 +137,8 @@ def _files(
         noise = np.array([picture.error for picture in shown.used])
         positions = sights.corners.across(moved)  # across the line of sight
     pixels = np.hypot(moved, noise)
-    counted = np.setdiff1d(np.arange(len(moved)), found.outliers)
+    fitting = np.setdiff1d(np.arange(len(moved)), found.outliers)
+    total, alone = _rms(pixels[fitting]), _rms(noise)
     links = ("flange", "base") if sights.in_hand else ("base", "flange")
     values = {
         "found": found,
@@ -146,12 +147,11 @@ def _files(
         "doubts": doubts,
         "good": good,
         "places": hand_eye_places(found, ("the camera", "the board"), links),
-        "pixels": _rms(pixels[counted]),
-        "position": _rms(positions[counted]),
-        "rotation": _rms(np.linalg.norm(residuals[counted, 3:], axis=1)),
-        "noise": _rms(noise),
-        # what the arm's own errors leave of the pixels
-        "robot": np.sqrt(max(0.0, _rms(pixels[counted]) ** 2 - _rms(noise) ** 2)),
+        "pixels": total,
+        "position": _rms(positions[fitting]),
+        "rotation": _rms(np.linalg.norm(residuals[fitting, 3:], axis=1)),
+        "noise": alone,
+        "robot": np.sqrt(max(0.0, total**2 - alone**2)),  # by the arm's own errors
         "outliers": [names[row] for row in found.outliers],
     }
     rows = []
