@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, RecalibError
 from recalib.identification.checks.moved import moved_ends
 from recalib.identification.checks.sequence import JUMP, SLIP
 from recalib.identification.hand_eye import Sights, calibrate_hand_eye, held_out
@@ -147,6 +147,17 @@ def test_a_board_that_looks_the_same_upside_down_may_be(seed, in_hand, inverse, 
     camera = tomllib.loads(files["hand_eye.toml"].decode())["camera"]
     deviation = float(camera["deviation"][0].split()[0]) / 1e3
     assert off(np.array(camera["matrix"]), cell.camera)[0] < 4 * deviation
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_a_lens_of_another_camera_is_named_before_the_poses(in_hand, tmp_path):
+    cell = HandEyeCell(3, in_hand)
+    flange = cell.flange(POSES)
+    lens = replace(cell.lens, matrix=cell.lens.matrix * [[1.03], [1.03], [1]])
+    (path := tmp_path / "poses.txt").write_text(written(cell.reported(flange)))
+    shown = replace(shown_by(cell, cell.views(flange)), given=lens)
+    with pytest.raises(RecalibError, match="the given lens .* it is not this camera's"):
+        calibrate_poses(read_poses(path, "ros"), shown, in_hand, None, print)
 
 
 def test_an_exact_arm_leaves_the_noise_of_the_corners():
