@@ -157,7 +157,7 @@ def calibrate_arm(
 def opened(
     urdf: AnyPath, description: AnyPath | Description | None, tool: str | None, base: str | None
 ) -> tuple[UrdfFile, Arm, Description]:
-    """What `calibrate_arm` is given, read."""
+    """The files that `calibrate_arm` is given: of the URDF, its arm, and the description."""
     file = UrdfFile.read(urdf)
     arm = arm_of(file.content, file.path, tool, base)
     if description is not None and not isinstance(description, Description):

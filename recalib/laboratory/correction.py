@@ -12,7 +12,6 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from os import PathLike
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.archives import MOST, archive_of, opened, refused
+from recalib.files.outputs import AnyPath
 from recalib.files.storage import path_of, read_file, whole
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.postures import outside_of
@@ -168,7 +168,7 @@ class Correction:
         state = {"urdf": urdf, "learned": self.learned, "calibration": self.calibration.state()}
         return archive_of(header, state)
 
-    def save(self, path: str | PathLike[str]) -> None:
+    def save(self, path: AnyPath) -> None:
         """Write the file completely or not at all."""
         with whole(path) as temporary:
             temporary.write_bytes(self.archive())
@@ -271,7 +271,7 @@ class Correction:
         )
 
 
-def load_correction(path: str | PathLike[str]) -> Correction:
+def load_correction(path: AnyPath) -> Correction:
     """The calibrated arm in a file, or in a folder of `recalib calibrate`. Raises InvalidFile."""
     file = path_of(path) if os.path.isfile(path_of(path)) else Path(path, NAME)
     return Correction.from_archive(read_file(file, MOST), file)

@@ -18,7 +18,7 @@ TARGET: tuple[str, ...] = ("the target",)
 
 @dataclass(frozen=True)
 class DataSet:
-    """Observations, and the names that go with their numbers, in the order of these."""
+    """Observations, with names of targets, sockets and instruments by their numbers."""
 
     observations: Observations
     targets: tuple[str, ...] = TARGET

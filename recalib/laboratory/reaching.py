@@ -38,7 +38,7 @@ class Goals:
 
     poses: np.ndarray  # (n, 4, 4), or positions (n, 3) [m]
     postures: np.ndarray | None = None  # (n, columns) rad, m to stay near to; None if any will do
-    targets: np.ndarray | None = None  # (n,) their numbers; None of the tool link
+    targets: np.ndarray | None = None  # (n,) their numbers; None: of the tool link
 
     @classmethod
     def of(cls, poses: ArrayLike, near: ArrayLike | None, coupling: Coupling) -> "Goals":

@@ -79,7 +79,7 @@ def link_placements(
 ) -> dict[str, np.ndarray]:
     """Placements (n, 4, 4) [m] of links in the world at joint angles (n, joint) [rad].
 
-    If the robot's base was shifted, the arm's joints include that, links before the first do not.
+    The arm's joints include a shift of the robot's base; links before the first joint do not.
     """
     model, data, base = arm.model, arm.model.createData(), base or pin.SE3.Identity()
     frames = {link: model.getFrameId(link, pin.FrameType.BODY) for link in links}

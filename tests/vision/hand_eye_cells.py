@@ -94,7 +94,7 @@ class HandEyeCell:
         return views
 
     def sights(self, count: int, height: float | None = None) -> Sights:
-        """By as many pictures, with the lens from them; `height`: the error [m] of one given."""
+        """By `count` pictures and the lens from them; a given height is off by `height` [m]."""
         flange = self.flange(count)
         views = self.views(flange)
         lens = find_lens([(self.board, view) for view in views], self.lens.size).lens

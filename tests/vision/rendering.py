@@ -93,7 +93,7 @@ class Cell:
     """A Panda off as in docs/peers.md; camera and board, one on the hand, one beside the arm."""
 
     seed: int  # of the arm's errors, of frames and of postures
-    in_hand: bool = False  # whether the camera is
+    in_hand: bool = False  # whether the camera is on the hand
     board: Board = BOARD
     lens: Lens = LENS
 

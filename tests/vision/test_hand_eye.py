@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, RecalibError
 from recalib.identification.checks.moved import moved_ends
 from recalib.identification.checks.sequence import JUMP, SLIP
 from recalib.identification.hand_eye import Sights, calibrate_hand_eye, held_out
@@ -149,6 +149,17 @@ def test_a_board_that_looks_the_same_upside_down_may_be(seed, in_hand, inverse, 
     assert off(np.array(camera["matrix"]), cell.camera)[0] < 4 * deviation
 
 
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_a_lens_of_another_camera_is_named_before_the_poses(in_hand, tmp_path):
+    cell = HandEyeCell(3, in_hand)
+    flange = cell.flange(POSES)
+    lens = replace(cell.lens, matrix=cell.lens.matrix * [[1.03], [1.03], [1]])
+    (path := tmp_path / "poses.txt").write_text(written(cell.reported(flange)))
+    shown = replace(shown_by(cell, cell.views(flange)), given=lens)
+    with pytest.raises(RecalibError, match="the given lens .* it is not this camera's"):
+        calibrate_poses(read_poses(path, "ros"), shown, in_hand, None, print)
+
+
 def test_an_exact_arm_leaves_the_noise_of_the_corners():
     cell = HandEyeCell(3, True, position=0.0, rotation=0.0)
     found = calibrate_hand_eye(cell.sights(POSES))
@@ -188,6 +199,10 @@ def test_matrices(rows, count, length, tmp_path):
     own = (", ".join(f"{number:.9f}" for number in line) for line in lines)
     (path := tmp_path / "poses.txt").write_text("\n".join([str(length), *own]))
     assert read_poses(path).poses == pytest.approx(poses, abs=1e-6)
+    if count == 16:
+        np.savetxt(path, poses.swapaxes(1, 2).reshape(lines.shape))
+        with pytest.raises(InvalidFile, match="is it transposed"):
+            read_poses(path)
 
 
 @pytest.mark.parametrize(
@@ -364,8 +379,8 @@ def test_a_camera_that_jumped_is_told_first(tmp_path, monkeypatch, capsys):
     (tmp_path / "poses.txt").write_text(written(cell.reported(flange)))
     (tmp_path / "targets.txt").write_text(written(poses))
     assert calibrate() != REFUSED
-    words = "Careful: between rows 12 and 13 camera or base seem to have moved by 60 mm"
-    assert words in capsys.readouterr().out
+    words = "between rows 12 and 13 camera or base seem to have moved by 60 mm"
+    assert capsys.readouterr().out.partition("Careful: ")[2].startswith(words)
 
 
 @pytest.mark.parametrize("wrong", ["flange targets", "flange", "targets"])

@@ -73,7 +73,7 @@ def calibrate_poses(
 
     Raises RecalibError: poses that do not determine it, or are likely mistaken.
     """
-    pictures = targets = None
+    pictures = targets = doubt = None
     if isinstance(shown, PoseTable):
         targets, board, optics = shown, shown.poses, None
         if len(flange) != len(targets):
@@ -82,6 +82,7 @@ def calibrate_poses(
         own = {f"{name} of the flange": cells for name, cells in flange.table.cells.items()}
         check_copies(replace(targets.table, cells={**own, **targets.table.cells}))
     else:
+        doubt = shown.doubt  # first, so that poses are not blamed for a lens
         pictures, by_lens = shown, (shown.given is None, False)
         flange = flange[np.array([picture.row - 1 for picture in shown.used])]
         views = [view for _, view in views_of(shown.board, shown.used)]
@@ -102,12 +103,14 @@ def calibrate_poses(
     check_fit(still, flange, targets)
     on_progress("errors of poses that are held out")
     good = found.misfit <= WRONG and len(found.outliers) / len(flange) <= MOST
-    doubts = [*_doubts(found, pictures, faults)]
+    doubts = [*_doubts(found, pictures, faults, doubt)]
     return _files(found, flange.table.path.name, pictures, doubts, good), good
 
 
-def _doubts(found: HandEye, shown: Observed | None, faults: Sequence[Fault]) -> Iterator[str]:
-    """Warnings, each without its full stop, of what moved amid the poses and of the rest."""
+def _doubts(
+    found: HandEye, shown: Observed | None, faults: Sequence[Fault], lens: str | None
+) -> Iterator[str]:
+    """Warnings, each without its full stop: of what moved, of poses, and that of the lens."""
     rows, in_hand = [*range(len(found.sights))], found.sights.in_hand
     if shown is not None:
         rows = [picture.row - 1 for picture in shown.used]
@@ -117,7 +120,7 @@ def _doubts(found: HandEye, shown: Observed | None, faults: Sequence[Fault]) -> 
         words = {"stands": stands, "moves": moves, "rows": rows[-1] + 1}
         none = {"folder": None, "sockets": False, "timed": False}
         yield render("fault.txt.j2", fault=own, **words, **none).strip()
-    yield from filter(None, (exchange_in(found, shown is None), shown and shown.doubt))
+    yield from filter(None, (exchange_in(found, shown is None), lens))
 
 
 def _files(
@@ -137,7 +140,8 @@ def _files(
         noise = np.array([picture.error for picture in shown.used])
         positions = sights.corners.across(moved)  # across the line of sight
     pixels = np.hypot(moved, noise)
-    counted = np.setdiff1d(np.arange(len(moved)), found.outliers)
+    fitting = np.setdiff1d(np.arange(len(moved)), found.outliers)
+    total, alone = _rms(pixels[fitting]), _rms(noise)
     links = ("flange", "base") if sights.in_hand else ("base", "flange")
     values = {
         "found": found,
@@ -146,12 +150,11 @@ def _files(
         "doubts": doubts,
         "good": good,
         "places": hand_eye_places(found, ("the camera", "the board"), links),
-        "pixels": _rms(pixels[counted]),
-        "position": _rms(positions[counted]),
-        "rotation": _rms(np.linalg.norm(residuals[counted, 3:], axis=1)),
-        "noise": _rms(noise),
-        # what the arm's own errors leave of the pixels
-        "robot": np.sqrt(max(0.0, _rms(pixels[counted]) ** 2 - _rms(noise) ** 2)),
+        "pixels": total,
+        "position": _rms(positions[fitting]),
+        "rotation": _rms(np.linalg.norm(residuals[fitting, 3:], axis=1)),
+        "noise": alone,
+        "robot": np.sqrt(max(0.0, total**2 - alone**2)),  # by the arm's own errors
         "outliers": [names[row] for row in found.outliers],
     }
     rows = []

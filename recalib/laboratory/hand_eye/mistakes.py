@@ -61,7 +61,7 @@ def check_motion(sights: Sights) -> None:
 def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> None:
     """Raise Mistaken if poses are likely wrong, or leave a place uncertain by decimetres.
 
-    They are from tables; targets are None if pictures show them.
+    Both tables are of the poses; `targets` is None if pictures show them.
     """
     remaining = found.misfit
     fits = remaining < WRONG
@@ -140,7 +140,7 @@ def _check_size(scale: float, deviation: float) -> None:
 def _check_readings(
     sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
 ) -> None:
-    """Raise Mistaken if poses that are read otherwise, the simplest first, fit much better."""
+    """Raise Mistaken if poses fit much better when read otherwise; simpler ways are tried first."""
     side, option = ("fixed", "fixed") if sights.in_hand else ("on the hand", "hand")
     direction = f"the camera is {side} (--camera {option}), or"
     direction += " the flange's poses are those of the base in it (--inverse flange)"

@@ -176,7 +176,8 @@ def _headed(text: str, path: Path, way: Convention | None) -> str:
     if len(rows) > 1 and len(rows[0]) == 1:  # how many poses follow
         rows = rows[1:]
     if {len(row) for row in rows} == {4}:
-        high = 4 if any([*map(number_in, row)] == [0, 0, 0, 1] for row in rows) else 3
+        lasts = *rows, [row[-1] for row in rows[:4]]  # a column, if matrices are transposed
+        high = 4 if any([*map(number_in, last)] == [0, 0, 0, 1] for last in lasts) else 3
         rows = [[*chain(*rows[first : first + high])] for first in range(0, len(rows), high)]
     if not rows:
         raise InvalidFile(path, "it is empty")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from recalib.errors import InvalidFile
+from recalib.files.outputs import AnyPath
 from recalib.files.storage import read_file, whole
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.data_set import data_set
@@ -42,7 +43,7 @@ class Record:
 
     def __init__(
         self,
-        path: str | os.PathLike[str],
+        path: AnyPath,
         arm: Arm,
         description: Description,
         pictures: "BoardInPictures | None" = None,
@@ -159,9 +160,7 @@ class Record:
         if len(data.targets) > 1:
             names = ", ".join(data.targets)
             raise InvalidFile(self.path, f"it has the targets {names}; expected: one and the same")
-        *before, last = (
-            rows.columns[PICTURES.name].tolist() if PICTURES.name in rows.columns else [""]
-        )
+        *before, last = rows.columns.get(PICTURES.name, np.array([""])).tolist()
         if last and last in before:
             reason = f"{last} is in an earlier row; expected: a new file for each picture"
             raise InvalidFile(self.path, reason)

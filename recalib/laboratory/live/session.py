@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
-from os import PathLike
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pinocchio as pin
 
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnsuitableRobot
+from recalib.files.outputs import AnyPath
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.allowed import AllowedPostures, Box
@@ -98,7 +98,7 @@ class Ended(NamedTuple):
 def calibrate_live(
     opening: Callable[[], Station],
     arm: Arm,
-    table: str | PathLike[str],
+    table: AnyPath,
     settings: LiveSettings,
     ask: Callable[[Move], Answer] = lambda move: Answer.MOVE,
     description: Description | None = None,

@@ -6,13 +6,13 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from hashlib import sha256
-from os import PathLike
 from pathlib import Path
 
 import cv2
 import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.pictures.observed import (
     LEAST,
@@ -39,10 +39,10 @@ WORSE = 4.0  # times the median reprojection error
 
 
 def observe(
-    folder: str | PathLike[str],
-    joints: str | PathLike[str] | Table,
-    board: str | PathLike[str],
-    lens: str | PathLike[str] | None = None,
+    folder: AnyPath,
+    joints: AnyPath | Table,
+    board: AnyPath,
+    lens: AnyPath | None = None,
     in_hand: bool = False,
     on_progress: Callable[[str], None] = lambda line: None,
     camera: str = "camera",
@@ -90,7 +90,7 @@ def observe(
     return Observed(table, sheet, own, given, in_hand, pictures, others, camera, named)
 
 
-def pictures_in(folder: str | PathLike[str]) -> list[Path]:
+def pictures_in(folder: AnyPath) -> list[Path]:
     """The pictures in a folder by their names, with numbers as such: 2.png is before 10.png."""
     return sorted(
         (path for path in Path(folder).iterdir() if cv2.haveImageReader(str(path))),
@@ -115,7 +115,7 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
 
 
 def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool) -> list[Picture]:
-    """The pictures without those of another size (of a given lens), repeated and blurred ones."""
+    """The pictures, refused if of another size (`by_lens`: the lens's), repeated, or blurred."""
     expected = "expected, as by the lens" if by_lens else "expected"
     first: dict[str, str] = {}
     done = []

@@ -128,7 +128,9 @@ class Observed:
 
 
 def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str | None:
-    """What is doubtful about a given lens, or one of these pictures' own, without its full stop.
+    """What is doubtful about the lens of some pictures, in a sentence without its full stop.
+
+    It is the given lens, or else their own, which is estimated from them.
 
     Raises RecalibError: a given lens that cannot be theirs.
     """

@@ -6,7 +6,6 @@ Each folder has pictures of one board by one camera. Folders may share a camera,
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ import cv2
 import numpy as np
 
 from recalib.errors import InvalidFile
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import NUMBER, Quantity
 from recalib.files.storage import read_toml
 from recalib.identification.model.observations import Observations
@@ -105,9 +105,9 @@ class Session:
 
 
 def calibrate_pictures(
-    urdf: str | PathLike[str],
-    folders: Sequence[str | PathLike[str]],
-    description: str | PathLike[str] | Description | None = None,
+    urdf: AnyPath,
+    folders: Sequence[AnyPath],
+    description: AnyPath | Description | None = None,
     tool: str | None = None,
     base: str | None = None,
     on_progress: Progress = lambda line: None,

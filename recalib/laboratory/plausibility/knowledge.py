@@ -82,7 +82,7 @@ def mistake_in(arm: Arm, observations: Observations, frames: Frames | None = Non
 
 
 def frames_of(arm: Arm, data: DataSet) -> Frames:
-    """The same of a data set; of several cameras, each sight is enough by itself.
+    """Such estimates for a data set; of several cameras, each sight is enough by itself.
 
     Raises Mistaken and NoInitialEstimate, which name the sight.
     """
@@ -109,7 +109,7 @@ def frames_of(arm: Arm, data: DataSet) -> Frames:
 
 
 def check_distances(arm: Arm, data: DataSet, frames: Frames) -> None:
-    """Raise Mistaken if sockets are not about as far apart as estimated by the nominal arm."""
+    """Raise Mistaken if a described distance of sockets is far from that in the frames."""
     observations, names = data.observations, data.sockets
     tool = arm.forward(observations.joints)
     for one, other, length, _ in observations.distances:

@@ -30,7 +30,7 @@ UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: less is not reported
 
 
 class Mistaken(RecalibError):
-    """A table, or its description, that contradicts itself or the nominal arm."""
+    """Measurements, or their description, that are likely wrong, or do not determine a place."""
 
 
 def check_nominal(

@@ -69,12 +69,13 @@ def verdict(result: Results) -> str:
     without = f", {left} of {len(result.data)} rows left out as outliers" if left else ""
     compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
     before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
-    headline = (
-        f"On postures away from those measured, the mean error falls from {before:.3g} mm to"
-        f" {after:.3g} mm, 95 % within {1e3 * result.validation.radius:.3g} mm; near them, to"
-        f" {at_random:.3g} mm{without}."
-    )
-    if not result.worthwhile:
+    if result.worthwhile:
+        headline = (
+            f"On postures away from those measured, the mean error falls from {before:.3g} mm to"
+            f" {after:.3g} mm, 95 % within {1e3 * result.validation.radius:.3g} mm; near them, to"
+            f" {at_random:.3g} mm{without}."
+        )
+    else:
         headline = (
             "The correction does not reduce the error: on held-out postures,"
             f" the nominal arm's mean error of {before:.3g} mm does not fall{without}."
@@ -131,7 +132,7 @@ def _cameras(result: Results) -> Iterator[tuple[str, float, float]]:
 
 
 def pixel_error(held_out: HeldOut, rows: np.ndarray) -> float:
-    """The mean over rows by cameras of how far corners are off [px]."""
+    """The mean over rows of how far corners are off [px] in held-out pictures, each an RMS."""
     assert held_out.optics is not None
     return float(held_out.optics.moved(held_out.residuals)[rows].mean())
 

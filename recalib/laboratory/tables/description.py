@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from os import PathLike
 from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidSetting
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
 from recalib.files.storage import read_toml
 from recalib.identification.model.frames import LINK, Frames
@@ -52,7 +52,7 @@ class Description:
         return replace(frames, link_deviations=self.links, target_deviations=ends)
 
 
-def read_description(path: str | PathLike[str]) -> Description:
+def read_description(path: AnyPath) -> Description:
     """The description at `path`. Raises InvalidFile, which names the key."""
     parts = read_toml(path)
     try:

@@ -3,13 +3,13 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.tables.columns import (
@@ -52,9 +52,9 @@ class Measurements:
     """Rows of a table, in SI units. See `Coupling` for joints that follow others."""
 
     path: Path  # of the table, for messages
-    # (n, columns) rad, or m where a joint slides, that the controller reported, if the table has it
+    # (n, columns) rad, or m where a joint slides, that the controller reported; None without any
     joints: np.ndarray | None
-    # poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame, if it has any
+    # poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame; None without
     measured: np.ndarray | None
     columns: Mapping[str, np.ndarray]  # all others, by their names in `tables.columns`
 
@@ -70,7 +70,7 @@ class Measurements:
 
 
 def read_measurements(
-    path: str | PathLike[str], arm: Arm, description: Description | None = None
+    path: AnyPath, arm: Arm, description: Description | None = None
 ) -> Measurements:
     """The measurements of an arm in the table at `path`.
 
@@ -85,14 +85,14 @@ def read_measurements(
     return rows
 
 
-def read_joints(path: str | PathLike[str], arm: Arm) -> Measurements:
+def read_joints(path: AnyPath, arm: Arm) -> Measurements:
     """Joint coordinates and pictures in the table at `path`. Raises as `read_measurements`."""
     rows = _read(read_table(path), arm, MEASURED)
     _check_rows(rows)
     return rows
 
 
-def read_desired(path: str | PathLike[str], arm: Arm, target: bool = False) -> Measurements:
+def read_desired(path: AnyPath, arm: Arm, target: bool = False) -> Measurements:
     """Desired joint coordinates, or poses or positions, or both.
 
     Args:
@@ -114,7 +114,7 @@ def read_desired(path: str | PathLike[str], arm: Arm, target: bool = False) -> M
 
 
 def measurements_so_far(
-    content: bytes, path: str | PathLike[str], arm: Arm, description: Description
+    content: bytes, path: AnyPath, arm: Arm, description: Description
 ) -> Measurements:
     """The measurements in the content of a table that still grows: one row is enough.
 

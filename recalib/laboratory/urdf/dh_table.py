@@ -1,9 +1,9 @@
 """A table of Denavit-Hartenberg parameters (CSV), and the URDF of its arm."""
 
 import re
-from os import PathLike
 
 from recalib.errors import InvalidFile
+from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.report.templates import render
 from recalib.laboratory.tables.columns import TEXT, Columns
@@ -24,7 +24,7 @@ LAYOUT = (
 )
 
 
-def read_rows(path: str | PathLike[str]) -> list[Row]:
+def read_rows(path: AnyPath) -> list[Row]:
     """The rows of the table at `path`, from the base to the tool.
 
     Its columns are `joint`, a name; `a` and `d`, lengths; `alpha` and `theta`, angles; and, if
