@@ -43,9 +43,9 @@ class DamagedArm:
     )
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m] at angles that a controller assumes.
+        """Poses (n, 4, 4) of the tool in the base frame [m].
 
-        These are (n, joint) rad. Raises InvalidSetting: another shape.
+        A controller assumes angles (n, joint) [rad]. Raises InvalidSetting: another shape.
         """
         joints = array_of("angles", angles, ("n", len(self.offsets)))
         return self.chain.forward(self._deflected(joints)[None])[0]
@@ -54,12 +54,12 @@ class DamagedArm:
     def chain(self) -> Chain:
         """Its kinematics at angles that encoders report if nothing gives way.
 
-        Once all damages are done.
+        It is fixed at its first use, so all damages must be applied before.
         """
         return Chain.of(self.arm, self.offsets)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
-        """True joint angles (n, joint) [rad] at those that a controller assumes.
+        """True joint angles (n, joint) [rad] at angles (n, joint) [rad] that a controller assumes.
 
         Every deflection starts from the shifted angles, so that the order of the damages does not
         matter.

@@ -75,7 +75,7 @@ class Disturbances:
     ) -> np.ndarray:
         """By how much each joint misses its angle, (run, *shape) rad. It means nothing of slides.
 
-        The shape is moves and joints; there is a generator for each run.
+        The shape is (moves, joints); there is a generator for each run.
         """
         return self.repeatability.repeatability * np.stack(
             [generator.standard_normal(shape) for generator in generators]

@@ -30,7 +30,7 @@ def path_of(given: str | os.PathLike[str]) -> Path:
 
 
 def read_file(path: str | os.PathLike[str], most: int) -> bytes:
-    """The bytes of a file, which may be `most` at most.
+    """The bytes of a file of at most `most` bytes.
 
     Raises InvalidFile: no such file, one that cannot be read or has no end, or a larger one.
     """

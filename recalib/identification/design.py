@@ -42,10 +42,10 @@ def surprises(calibration: Calibration, observations: Observations) -> np.ndarra
 def most_informative(
     calibration: Calibration, joints: np.ndarray, count: int, optics: Optics | None = None
 ) -> Iterator[tuple[int, np.ndarray]]:
-    """So many postures of the largest gains, none twice, each given those before it.
+    """At most `count` different postures of the largest gains, each given those before it.
 
-    Optics say what pictures would be worth there; None where no cameras measure. Yields each one's
-    number, and the covariance (P, P) of the parameters once it is measured.
+    Optics are of the pictures that would be taken there; None if no cameras measure. Yields each
+    one's number, and the covariance (P, P) of the parameters once it is measured.
     """
     rows, covariance = _rows(calibration, joints, optics), calibration.estimate.covariance
     unused = np.ones(len(rows), dtype=bool)

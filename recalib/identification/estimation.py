@@ -86,7 +86,7 @@ def identify(
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
-    check_observations(observations, model)
+    check_observations(observations, model.nominal.slides, model.frames)
     scale, kinds = model.deviations, observations.kinds
     parameters, variances = _initial(model, start)
     noise = np.full(kinds, FIRST_NOISE)

@@ -99,9 +99,9 @@ def initial_frames(
 
 
 def joined_frames(parts: Sequence[Frames], sights: np.ndarray) -> Frames:
-    """The frames of several instruments and targets, from the parts by each sight alone.
+    """The frames of several instruments and targets, from the part that each sight alone gives.
 
-    The first part of each decides. Sights (s, 2) are the numbers of instruments and targets.
+    The first part with an instrument or a target decides. Sights (s, 2) are the numbers of both.
     """
     instruments, targets = (np.unique(column, return_index=True)[1] for column in sights.T)
     bases = np.array([parts[sight].base for sight in instruments])

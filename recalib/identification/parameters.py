@@ -37,7 +37,7 @@ def parameters_of(
     sockets: Sequence[str] = (),
     instruments: Sequence[str] = (),
 ) -> list[Parameter]:
-    """All parameters, in the order of the model; what has no names is called by its numbers."""
+    """All parameters, in the order of the model; what has no name is called by its number."""
     errors = np.sqrt(np.diag(estimate.covariance))
     return [
         Parameter(name, unit, float(scale * value), float(scale * error))

@@ -15,9 +15,9 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.identifiability import Unidentifiable
-from recalib.identification.hand_eye import HandEye, worst_axes
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.model.hand_eye_model import HandEye, worst_axes
 from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.urdf.origins import angles_of

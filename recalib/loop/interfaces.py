@@ -104,4 +104,4 @@ class ForwardKinematics(Protocol):
     """The interface of a simulated robot's arm: its forward kinematics."""
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Tool poses (n, 4, 4) [m] in the base frame, at angles [rad] that a controller assumes."""
+        """Tool poses (n, 4, 4) [m] in the base, at a controller's joint angles (n, joint) [rad]."""

@@ -74,8 +74,8 @@ def _coupling_of(
 ) -> Coupling | None:
     """The coupling of joints by `<mimic>`; None if none follows another.
 
-    Of all joints of a URDF, the names are of those between base and tool, and so are the limits
-    (2, joint) [rad, m], lower and upper.
+    `joints` are all joints of a URDF, by name. `names` and `limits` (2, joint) [rad, m], lower and
+    upper, are of those between base and tool.
 
     Raises UnsuitableRobot: a joint that follows itself, or none that moves.
     """

@@ -41,8 +41,8 @@ _ONE = threading.Lock()  # for one block at a time
 def find_urdf(urdf: str | PathLike[str]) -> Path:
     """The file of a URDF. One of the user's own comes before one of a package.
 
-    It is a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the name of
-    a description in robot_descriptions.py, such as panda_description, if that is installed.
+    `urdf` is a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the name
+    of a description in robot_descriptions.py, such as panda_description, if that is installed.
 
     Raises UnknownName, or InvalidFile if it is a path and not a name.
     """

@@ -15,7 +15,8 @@ import cv2
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.hand_eye import Sights, calibrate_hand_eye
+from recalib.identification.hand_eye import calibrate_hand_eye
+from recalib.identification.model.hand_eye_model import Sights
 from recalib.identification.model.linearisation import displacements
 from recalib.identification.model.optics import BOARD
 from recalib.vision.detection import find_corners

@@ -1,7 +1,7 @@
 """CMA-ES next to differential evolution: python -m tests.bars.optimisers [TRIALS].
 
-Each searches twice with equal trials, by other seeds and on other poses. What its two winners
-leave, on fresh poses, says how good an optimiser is and how much luck it leaves.
+Each searches twice with as many trials, by other seeds and on other poses. The errors that remain
+with its two winners, on fresh poses, show how good an optimiser is and how much it varies.
 """
 
 import sys
@@ -33,7 +33,7 @@ def by_differential_evolution(trials: Trials, seed: int, most: int) -> np.ndarra
     space = trials.space
 
     def score(points: np.ndarray) -> np.ndarray:
-        return np.nan_to_num(worse(trials.shares(space.rows(points.T))), nan=np.inf, posinf=1e9)
+        return np.minimum(worse(trials.shares(space.rows(points.T))), 1e9)  # not infinite
 
     size = len(space.coordinates)
     found = differential_evolution(
@@ -46,7 +46,7 @@ def by_differential_evolution(trials: Trials, seed: int, most: int) -> np.ndarra
 def main(most: int = 640) -> None:
     study = read_study(Path("config.yaml"))
     replicate, plan = Replicate(study, read_design(Path(DESIGN))[0], 0), study.search
-    print(f"share of the errors that is left (%), twice, after {most} trials")
+    print(f"share of the errors that remains, in two searches of {most} trials")
     for name, iterations in ITERATIONS.items():
         variant = variants(study)[name]
         runs = plan.runs if iterations <= plan.long else plan.long_runs

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.hand_eye import Sights
+from recalib.identification.model.hand_eye_model import Sights
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
 from recalib.vision.lens_search import find_lens

@@ -20,8 +20,9 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile, RecalibError
 from recalib.identification.checks.moved import moved_ends
 from recalib.identification.checks.sequence import JUMP, SLIP
-from recalib.identification.hand_eye import Sights, calibrate_hand_eye, held_out
+from recalib.identification.hand_eye import calibrate_hand_eye, held_out
 from recalib.identification.model import displacements
+from recalib.identification.model.hand_eye_model import Sights
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.hand_eye.calibrating import calibrate_poses
 from recalib.laboratory.hand_eye.mistakes import Mistaken, board_size, exchange_in

@@ -1,9 +1,9 @@
 """A camera, a board or a flange's frame that moved amid the rows of a hand-eye calibration.
 
-It is looked for as in `sequence`, but without a model of the arm, whose errors change slowly with
-its pose, and so with the rows of a path. So what is found is undone, which shows the noise beside
-it. Next to errors of the flange that are linear in its pose, and as large as that noise, it has to
-be plain, too, by as many rows as there would be if those that follow each other were not alike.
+A motion is looked for as in `sequence`, but without a model of the arm, whose errors drift along a
+path and resemble one. So the motion is undone, and a fit without it shows the noise. It must then
+be plain again, next to errors of the flange that are linear in its pose and as large as this noise,
+with rows that count the less, the more the residuals of successive rows are correlated.
 """
 
 from dataclasses import replace
@@ -21,14 +21,13 @@ from recalib.identification.checks.sequence import (
     Fault,
     Unexplained,
 )
-from recalib.identification.hand_eye import (
+from recalib.identification.hand_eye import FINEST, calibrate_hand_eye
+from recalib.identification.model.hand_eye_model import (
     CAMERA,
-    FINEST,
     TARGET,
     HandEye,
     LinearHandEye,
     Sights,
-    calibrate_hand_eye,
 )
 from recalib.identification.model.linearisation import displaced
 
@@ -45,15 +44,15 @@ def moved_ends(found: HandEye) -> tuple[list[Fault], HandEye]:
         still = calibrate_hand_eye(_undone(found, motion))
         residuals, _, _ = _whitened(still)
         alike = max(0.0, np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2))
-        beside = replace(still, sights=found.sights)
-        share, row, by, end = motion = _plainest(beside, alike)
+        refitted = replace(still, sights=found.sights)
+        share, row, by, end = motion = _plainest(refitted, alike)
         if share < SHARE:
             break
         kind = SLIP if found.sights.in_hand == (end == CAMERA) else JUMP
         size, turn = np.linalg.norm(by.reshape(2, 3), axis=1)
         if row not in [fault.row for fault in faults]:  # else it is what a large turn leaves
             faults.append(Fault(kind, float(size), row, float(turn)))
-        found = calibrate_hand_eye(_undone(beside, motion))
+        found = calibrate_hand_eye(_undone(refitted, motion))
     return faults, found
 
 

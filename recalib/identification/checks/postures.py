@@ -61,7 +61,7 @@ def find_postures(joints: np.ndarray, slides: np.ndarray, noise: float) -> Postu
 def outside_of(known: np.ndarray, poses: np.ndarray) -> np.ndarray:
     """How far (n, 2) [m, rad] poses (n, 4, 4) are from where the known (m, 4, 4) are; 0 inside.
 
-    Or positions (n, 3), which are turned as it may be.
+    Of positions (n, 3), whose orientations do not matter, the angle is 0.
     """
     found, mean = np.zeros((len(poses), 2)), nearest_rotation(known[:, :3, :3].sum(axis=0))
     places = poses if poses.ndim == 2 else poses[:, :3, 3]

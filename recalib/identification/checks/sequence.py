@@ -57,7 +57,7 @@ class Fault:
 
 
 def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
-    """What rows, by which geometry was identified, show by their order in each series.
+    """What rows show by their order in each series; the geometry was identified by the same rows.
 
     A lag bends the arm that is identified, and so leaves more than a lag. If it is the plainest
     fault, all others are looked for without it.

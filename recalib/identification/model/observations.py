@@ -2,8 +2,8 @@
 
 Three kinds of rows, one kind to a set of observations: the pose of a target on the tool, or its
 position, in the frame of the instrument; or a ball on the tool that sits in a socket, of which
-nothing is known but that the socket stays where it is. That takes no instrument at all. What
-identifies nothing is refused.
+nothing is known but that the socket stays where it is. That takes no instrument at all. Rows
+that cannot be measurements are refused.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from recalib.errors import BadMeasurement, InvalidSetting, check_kind
-from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.frames import Frames
 from recalib.identification.model.optics import Optics
 from recalib.loop.external import FARTHEST, POSE, are_poses
 
@@ -121,9 +121,9 @@ class Observations:
         return np.unique(labels, return_inverse=True, axis=-1)[1]
 
 
-def check_observations(observations: Observations, model: ErrorModel) -> None:
-    """Raise BadMeasurement unless the parameters of a model can be identified from these."""
-    count, slides = len(observations), model.nominal.slides
+def check_observations(observations: Observations, slides: np.ndarray, frames: Frames) -> None:
+    """Raise BadMeasurement unless rows fit the frames, and an arm's joints that slide or turn."""
+    count = len(observations)
     if count == 0:
         raise BadMeasurement("the number of observations", [0], "one or more")
     sizes: dict[str, list[tuple[int, ...]]] = {
@@ -150,8 +150,8 @@ def check_observations(observations: Observations, model: ErrorModel) -> None:
         _check_each(what, values, np.abs(values) <= most, valid)
     check_rows(observations)
     for what, numbers, end in (
-        ("target of measurement", observations.targets, len(model.frames.sights)),
-        ("socket of measurement", observations.sockets, len(model.frames.sockets)),
+        ("target of measurement", observations.targets, len(frames.sights)),
+        ("socket of measurement", observations.sockets, len(frames.sockets)),
     ):
         if numbers is not None:
             _check_each(what, numbers, np.isin(numbers, np.arange(end)), f"below {end}")

@@ -9,7 +9,8 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.identification.checks.moved import moved_ends
 from recalib.identification.checks.sequence import Fault
-from recalib.identification.hand_eye import HandEye, Sights, calibrate_hand_eye, held_out, upended
+from recalib.identification.hand_eye import calibrate_hand_eye, held_out, upended
+from recalib.identification.model.hand_eye_model import HandEye, Sights
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.calibrate import Progress
 from recalib.laboratory.hand_eye.mistakes import (

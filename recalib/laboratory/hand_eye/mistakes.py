@@ -13,7 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, starts
+from recalib.identification.hand_eye import ONE_AXIS, starts
+from recalib.identification.model.hand_eye_model import HandEye, Sights
 from recalib.laboratory.hand_eye.pose_table import PoseTable, other_readings
 from recalib.laboratory.plausibility.mistakes import Mistaken
 from recalib.laboratory.plausibility.steps import UNITS

@@ -15,7 +15,8 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile, RecalibError
 from recalib.files.archives import refused
 from recalib.files.storage import read_toml
-from recalib.identification.hand_eye import ONE_AXIS, HandEye, Sights, information
+from recalib.identification.hand_eye import ONE_AXIS, information
+from recalib.identification.model.hand_eye_model import HandEye, Sights
 from recalib.identification.model.linearisation import LEVER
 from recalib.laboratory.hand_eye.calibrating import HAND_EYE, POSES
 from recalib.laboratory.hand_eye.pose_table import read_poses

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.identification.hand_eye import Sights, calibrate_hand_eye
+from recalib.identification.hand_eye import calibrate_hand_eye
 from recalib.identification.hand_eye import held_out as without_fold
 from recalib.identification.held_out import HeldOut
+from recalib.identification.model.hand_eye_model import Sights
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, WAYS
 from recalib.laboratory.correction import NAME, Correction
 from recalib.laboratory.places import Place, hand_eye_places

@@ -1,0 +1,219 @@
+"""A hand-eye calibration's data, and its model of an arm that is not exact.
+
+The board is at M_i = X^-1 G_i Z in the camera. X is the pose of the camera on its side of the arm,
+Z the pose of the board on the other side. G_i leads from one side to the other: the flange's pose
+F_i in the base if the camera is next to the arm, and its inverse if the camera is on the hand.
+
+The flange is not where the controller says. So the residual r_i, which takes the predicted pose of
+the board to the measured one, has the covariance
+
+    C_i = S_i + A_i D A_i',    D = diag(p^2, p^2, p^2, a^2, a^2, a^2),
+
+where S_i is the covariance by the corners' noise, A_i turns a displacement of the flange into one
+of the board in the camera, and (p, a) is the pose accuracy of the arm. The lens and the scale of
+the print are parameters, too; see `recalib.identification.model.optics`.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.identification.model.linearisation import LEVER, displacements
+from recalib.identification.model.optics import Optics
+
+CAMERA, TARGET = slice(6), slice(6, 12)  # which parameters are of the camera and of the board
+ENDS = TARGET.stop
+EXACT = 1e-12  # m^2, rad^2: the variance of a pose that a table gives
+OUTLIER = 0.25  # the weight of a pose that is doubted
+
+
+@dataclass(frozen=True)
+class Sights:
+    """Poses of a flange, and of a board in a camera.
+
+    Attributes:
+        flange: (n, 4, 4) m, in the arm's base, by the controller.
+        board: (n, 4, 4) m, in the camera, as measured.
+        in_hand: whether the camera is on the hand.
+        optics: what pictures say of the board's poses; None if a table gives these.
+        height: m, the z coordinate of the board's origin in the base if the camera is on the hand,
+            else in the flange, and its standard deviation; None if it is unknown.
+    """
+
+    flange: np.ndarray
+    board: np.ndarray
+    in_hand: bool
+    optics: Optics | None = None
+    height: tuple[float, float] | None = None
+
+    def __len__(self) -> int:
+        return len(self.flange)
+
+    def __getitem__(self, rows: np.ndarray) -> "Sights":
+        optics = None if self.optics is None else self.optics[rows]
+        return replace(self, flange=self.flange[rows], board=self.board[rows], optics=optics)
+
+    @cached_property
+    def between(self) -> np.ndarray:
+        """G (n, 4, 4): from the camera's side of the arm to the board's."""
+        return np.linalg.inv(self.flange) if self.in_hand else self.flange
+
+    @cached_property
+    def corners(self) -> Optics:
+        """What corners say; of poses in a table, nothing."""
+        if self.optics is not None:
+            return self.optics
+        exact, none = np.tile(EXACT * np.eye(6), (len(self), 1, 1)), np.zeros((len(self), 6, 0))
+        return Optics(exact, none, none[:, :0], none[:, 0], exact, kinds=np.zeros(0, int))
+
+    @property
+    def axes(self) -> tuple[np.ndarray, np.ndarray]:
+        """How far [deg] the flange turned about three axes, the most first; these (3, 3), in rows.
+
+        Each is about the middle orientation, in the base.
+        """
+        middle = Rotation.from_matrix(self.flange[:, :3, :3]).mean()
+        turns = Rotation.from_matrix(self.flange[:, :3, :3] @ middle.as_matrix().T).as_rotvec()
+        axes = np.linalg.svd(turns, full_matrices=len(turns) < 3)[2]
+        return np.degrees(np.ptp(turns @ axes.T, axis=0)), axes
+
+
+@dataclass(frozen=True)
+class HandEye:
+    """A hand-eye calibration.
+
+    Attributes:
+        sights: by which it was found.
+        camera: X (4, 4) m, in the flange if it is on the hand, else in the base.
+        board: Z (4, 4) m, in the base if the camera is on the hand, else in the flange.
+        optics: (o,) corrections; see `Optics`.
+        accuracy: m and rad, the standard deviation of the flange's pose along and about each axis.
+        noise: m and rad, the same of poses in a table, along the line of sight and about each axis.
+        covariance: (12 + o, 12 + o) of camera, board [m, rad, along the axes of the frames in which
+            they are] and optics.
+        weights: (n,) up to about 1; small if a pose is doubtful.
+    """
+
+    sights: Sights
+    camera: np.ndarray
+    board: np.ndarray
+    optics: np.ndarray
+    accuracy: np.ndarray
+    noise: np.ndarray
+    covariance: np.ndarray
+    weights: np.ndarray
+
+    @classmethod
+    def at(cls, sights: Sights, camera: np.ndarray, board: np.ndarray) -> "HandEye":
+        """One with these places, before anything else is known."""
+        optics, nothing = np.zeros(sights.corners.slopes.shape[-1]), np.zeros(2)
+        blank = optics, nothing, nothing, np.zeros((ENDS + len(optics), ENDS + len(optics)))
+        return cls(sights, camera, board, *blank, np.ones(len(sights)))
+
+    def predict(self, sights: Sights) -> np.ndarray:
+        """Poses (n, 4, 4) [m] of the board in the camera."""
+        return np.linalg.inv(self.camera) @ sights.between @ self.board
+
+    def residuals(self, sights: Sights) -> np.ndarray:
+        """What takes predicted poses of the board to the measured ones: (n, 6) m, rad."""
+        there = displacements(self.predict(sights), sights.board)
+        return there + sights.corners.slopes @ self.optics
+
+    @property
+    def misfit(self) -> float:
+        """m, the median of what remains; a turn counts by `LEVER`."""
+        residuals = self.residuals(self.sights) * np.repeat([1.0, LEVER], 3)
+        return float(np.median(np.linalg.norm(residuals, axis=1)))
+
+    @property
+    def outliers(self) -> np.ndarray:
+        """Numbers (from 0) of the poses that have hardly any weight."""
+        return np.flatnonzero(self.weights < OUTLIER)
+
+    def deviations(self, part: int) -> tuple[float, float]:
+        """m, rad: standard deviations of the camera (0) or board (1) along the worst axis."""
+        return worst_axes(self.covariance[6 * part : 6 * part + 6, 6 * part : 6 * part + 6])
+
+
+def worst_axes(covariance: np.ndarray) -> tuple[float, float]:
+    """m, rad: standard deviations along the worst axes, by a covariance (6, 6) of a pose."""
+    blocks = covariance[:3, :3], covariance[3:, 3:]
+    worst = (float(np.linalg.eigvalsh(block)[-1]) for block in blocks)
+    position, turn = (float(np.sqrt(max(0.0, variance))) for variance in worst)
+    return position, turn
+
+
+class LinearHandEye:
+    """The residuals of a calibration, and how they move with its parameters and with the arm."""
+
+    def __init__(self, found: HandEye):
+        self.found, sights = found, found.sights
+        predicted = found.predict(sights)
+        to_camera = np.tile(found.camera[:3, :3].T, (len(sights), 1, 1))  # from X's side
+        from_board = to_camera @ sights.between[:, :3, :3]  # from Z's side
+        self.residuals = found.residuals(sights)
+        slopes = np.zeros((len(sights), 6, ENDS + len(found.optics)))
+        slopes[:, :3, :3] = slopes[:, 3:, 3:6] = -to_camera
+        slopes[:, :3, 3:6] = _crosses(predicted[:, :3, 3]) @ to_camera
+        slopes[:, :3, 6:9] = slopes[:, 3:, 9:12] = from_board
+        slopes[..., ENDS:] = -sights.corners.slopes
+        self.slopes = slopes
+        # how the board moves in the camera with the flange, along and about the camera's axes
+        flange = found.board if sights.in_hand else sights.flange @ found.board
+        lever = flange[..., :3, 3] - sights.flange[:, :3, 3]
+        turn = from_board if sights.in_hand else to_camera  # from the base
+        self.by_flange = np.zeros((len(sights), 6, 6))
+        self.by_flange[:, :3, :3] = self.by_flange[:, 3:, 3:] = turn
+        self.by_flange[:, :3, 3:] = -turn @ _crosses(lever)
+        self.sight = predicted[:, :3, 3] / np.linalg.norm(predicted[:, :3, 3], axis=1)[:, None]
+
+    def covariances(self, accuracy: np.ndarray, noise: np.ndarray) -> np.ndarray:
+        """C (n, 6, 6), without weights."""
+        scaled = self.by_flange * np.repeat(accuracy, 3)
+        total = self.found.sights.corners.spread + scaled @ scaled.swapaxes(1, 2)
+        total[:, :3, :3] += noise[0] ** 2 * self.sight[:, :, None] * self.sight[:, None]
+        total[:, 3:, 3:] += noise[1] ** 2 * np.eye(3)
+        return total
+
+    @cached_property
+    def precisions(self) -> np.ndarray:
+        """Inverses (n, 6, 6) of C."""
+        return np.linalg.inv(self.covariances(self.found.accuracy, self.found.noise))
+
+    def normal_equations(
+        self, precisions: np.ndarray, weights: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The information (p, p) and the gradient (p,) of all that is known."""
+        found, corners = self.found, self.found.sights.corners
+        weighted = np.einsum("n,nij,nik->njk", weights, precisions, self.slopes)
+        information = np.einsum("nji,njk->ik", self.slopes, weighted)
+        gradient = np.einsum("njk,nj->k", weighted, self.residuals)
+        known = corners.information.sum(axis=0) + np.diag(corners.deviations**-2.0)
+        information[ENDS:, ENDS:] += known
+        gradient[ENDS:] += corners.gradient.sum(axis=0) - known @ found.optics
+        if found.sights.height is not None:
+            height, deviation = found.sights.height
+            information[8, 8] += deviation**-2
+            gradient[8] += (height - found.board[2, 3]) / deviation**2
+        return information, gradient
+
+    def unlikelihood(self, accuracy: np.ndarray, noise: np.ndarray) -> float:
+        """Twice the negative logarithm of the restricted likelihood, up to a constant."""
+        weights, rows = self.found.weights, self.residuals
+        weights = np.where(weights < min(OUTLIER, np.median(weights)), 0.0, weights)
+        covariances = self.covariances(accuracy, noise)
+        precisions = np.linalg.inv(covariances)
+        information, gradient = self.normal_equations(precisions, weights)
+        scale = 1 / np.sqrt(np.maximum(information.diagonal(), np.finfo(float).tiny))
+        scaled = information * scale * scale[:, None] + 1e-9 * np.eye(len(scale))
+        gain = (gradient * scale) @ np.linalg.solve(scaled, gradient * scale)
+        squares = np.einsum("n,ni,nij,nj->", weights, rows, precisions, rows) - gain
+        whole = np.linalg.slogdet(scaled)[1] - 2 * np.log(scale).sum()
+        return float(np.linalg.slogdet(covariances)[1][weights > 0].sum() + squares + whole)
+
+
+def _crosses(vectors: np.ndarray) -> np.ndarray:
+    """Matrices (n, 3, 3) by which a cross product with vectors (n, 3) from the left is taken."""
+    return np.cross(vectors[:, None], np.eye(3)).swapaxes(1, 2)
