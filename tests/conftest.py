@@ -31,9 +31,9 @@ from recalib import (
     Rules,
     Schedule,
     apply,
-    load_arm,
 )
 from recalib.learners import class_of
+from recalib.nominal import arm_of
 from replication.config import Study, read_study
 from replication.scenarios import Nominal, Resolved, nominal_controller, resolve
 from replication.scenarios.plants import nominal_of
@@ -148,16 +148,10 @@ def makers(robot) -> dict[str, Callable]:
     return {"hierarchical": of_paper, "radial": radial} | of_today
 
 
-@pytest.fixture
-def load(tmp_path):
+@pytest.fixture(scope="session")
+def load() -> Callable[..., Arm]:
     """Loads an arm from the text of a URDF."""
-
-    def from_text(text: str, *links: str) -> Arm:
-        path = tmp_path / "small.urdf"
-        path.write_text(text)
-        return load_arm(path, *links)
-
-    return from_text
+    return lambda text: arm_of(text.encode(), Path("small.urdf"))
 
 
 @pytest.fixture(scope="session")
