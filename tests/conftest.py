@@ -31,6 +31,7 @@ from recalib import (
     Rules,
     Schedule,
     apply,
+    load_arm,
 )
 from recalib.learners import class_of
 from recalib.nominal import arm_of
@@ -38,6 +39,7 @@ from replication.config import Study, read_study
 from replication.scenarios import Nominal, Resolved, nominal_controller, resolve
 from replication.scenarios.plants import nominal_of
 from replication.training import make_peer, peers
+from tests import arms
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
 settings.load_profile("untimed")
@@ -160,6 +162,22 @@ def damaged(robot) -> DamagedArm:
     shifts = {"elbow_joint": np.radians(4), "wrist_3_joint": np.radians(-3)}
     shift = [EncoderShift(joint, angle) for joint, angle in shifts.items()]
     return apply(robot, [LinkShortening("forearm_link", 0.04), *shift])
+
+
+@pytest.fixture(scope="session")
+def ur10() -> Arm:
+    return load_arm("ur10_robot.urdf", "tool0")
+
+
+@pytest.fixture(scope="session")
+def panda() -> Arm:
+    return load_arm("panda.urdf", "panda_link8")
+
+
+@pytest.fixture(scope="session")
+def redundant() -> Controller:
+    """Of seven joints."""
+    return Controller(arms.panda())
 
 
 def copy_project(folder: Path) -> Path:

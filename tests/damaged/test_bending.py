@@ -6,7 +6,6 @@ from scipy.spatial.transform import Rotation
 
 from recalib import InvalidSetting, LinkBend, LinkTwist, UnknownName, apply
 from recalib.nominal import link_end
-from tests.arms import panda
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_3_link"]  # across two axes; along x; the tool
 
@@ -70,9 +69,9 @@ def test_a_bent_forearm_moves_the_tool_as_far_as_it_is_away(robot):
     assert (moved > 0).all() and (moved < 1.01 * bend * farthest).all()
 
 
-def test_what_cannot_bend_is_refused(robot):
+def test_what_cannot_bend_is_refused(robot, redundant):
     with pytest.raises(UnknownName, match="did you mean forearm_link"):
         apply(robot, [LinkBend("forarm_link", 0.1)])
     for damage in (LinkBend("panda_link1", 0.1), LinkTwist("panda_link1", 0.1)):
         with pytest.raises(InvalidSetting, match="'panda_link1'; expected: a link with a length"):
-            apply(panda(), [damage])
+            apply(redundant.robot, [damage])
