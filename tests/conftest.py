@@ -34,10 +34,12 @@ from recalib import (
     load_arm,
 )
 from recalib.learners import class_of
+from recalib.nominal import arm_of
 from replication.config import Study, read_study
 from replication.scenarios import Nominal, Resolved, nominal_controller, resolve
 from replication.scenarios.plants import nominal_of
 from replication.training import make_peer, peers
+from tests import arms
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
 settings.load_profile("untimed")
@@ -148,16 +150,10 @@ def makers(robot) -> dict[str, Callable]:
     return {"hierarchical": of_paper, "radial": radial} | of_today
 
 
-@pytest.fixture
-def load(tmp_path):
+@pytest.fixture(scope="session")
+def load() -> Callable[..., Arm]:
     """Loads an arm from the text of a URDF."""
-
-    def from_text(text: str, *links: str) -> Arm:
-        path = tmp_path / "small.urdf"
-        path.write_text(text)
-        return load_arm(path, *links)
-
-    return from_text
+    return lambda text: arm_of(text.encode(), Path("small.urdf"))
 
 
 @pytest.fixture(scope="session")
@@ -166,6 +162,22 @@ def damaged(robot) -> DamagedArm:
     shifts = {"elbow_joint": np.radians(4), "wrist_3_joint": np.radians(-3)}
     shift = [EncoderShift(joint, angle) for joint, angle in shifts.items()]
     return apply(robot, [LinkShortening("forearm_link", 0.04), *shift])
+
+
+@pytest.fixture(scope="session")
+def ur10() -> Arm:
+    return load_arm("ur10_robot.urdf", "tool0")
+
+
+@pytest.fixture(scope="session")
+def panda() -> Arm:
+    return load_arm("panda.urdf", "panda_link8")
+
+
+@pytest.fixture(scope="session")
+def redundant() -> Controller:
+    """Of seven joints."""
+    return Controller(arms.panda())
 
 
 def copy_project(folder: Path) -> Path:

@@ -1,10 +1,8 @@
 """What compiles the loops of robots and learners, and that they stay within their arrays."""
 
 import os
-import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from numba import config
@@ -13,8 +11,8 @@ from recalib import IMPROVED, Chain, HierarchicalLearner, Outcome, Schedule, Wor
 from recalib.learners import WAITING
 from recalib.nominal import COORDINATES, TOLERANCE
 from recalib.numerics.compiled import compiled
-
-ROOT = Path(__file__).parents[1]
+from tests.conftest import run
+from tests.nominal.test_newton import ARMS
 
 
 def over(one, other):
@@ -25,11 +23,7 @@ def go_through_all_loops() -> None:
     """As plain Python, where a number beside an array is an error; compiled, nobody looks."""
     assert config.DISABLE_JIT
     random = np.random.default_rng(1)
-    for urdf, tool, home in (
-        ("ur10_robot.urdf", "tool0", [0.0, -1.4, 2.1, -2.9, -1.6, 0.1]),
-        ("panda.urdf", "panda_hand_tcp", [0.0, -0.7, 0.2, -2.1, 0.0, 1.6, 0.5]),
-        ("so100.urdf", "gripper", [0.0, 1.0, -1.2, 0.5, 0.5]),
-    ):
+    for urdf, (tool, home) in ARMS.items():
         arm, angles = load_arm(urdf, tool), home + random.uniform(-0.1, 0.1, (2, len(home)))
         chain, poses = Chain.of(arm), arm.forward(angles)
         twice = Chain.side_by_side([chain, chain]).forward(np.stack([angles, angles]))
@@ -51,5 +45,5 @@ def go_through_all_loops() -> None:
 def test_no_loop_writes_beside_an_array():
     code = "from tests.test_compiled import go_through_all_loops as go; go()"
     environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
-    subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=environment, check=True)
+    run(sys.executable, "-c", code, env=environment, check=True)
     assert compiled(over)(1.0, 0.0) == np.inf

@@ -14,12 +14,13 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import recalib
 from recalib.nominal import find_urdf
 from tests.conftest import ROOT, run
-from tests.laboratory.conftest import in_degrees, in_millimetres, read, write
+from tests.laboratory.conftest import in_degrees, in_millimetres, write
 
 # the robot and the station of the examples; tests/test_notebook.py; tests/vision has one
 ALONE = "ur10", "station", "notebook", "poses"
@@ -215,8 +216,7 @@ def test_an_example_ends_with_small_errors(name, monkeypatch, capsys):
 @pytest.fixture(scope="module")
 def committed() -> set[str]:
     """The paths of all files that git holds, or would."""
-    listing = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
-    listed = run(*listing)
+    listed = run("git", "ls-files", "--cached", "--others", "--exclude-standard")
     if listed.returncode:
         pytest.skip("this copy is no git repository")
     return {path for path in listed.stdout.splitlines() if (ROOT / path).is_file()}
@@ -266,9 +266,7 @@ runpy.run_path("save_and_load.py")
 """
     examples = shutil.copytree(ROOT / "examples", tmp_path / "examples")
     only = os.environ | {"PYTHONPATH": str(tmp_path)}
-    output = subprocess.check_output(
-        [sys.executable, "-c", code], cwd=examples, env=only, text=True
-    )
+    output = run(sys.executable, "-c", code, cwd=examples, env=only, check=True).stdout
     assert "commanded corrected: mean error 0.0000" in output
 
 
@@ -304,7 +302,7 @@ def test_the_page_on_ones_own_arm_holds_where_only_the_wheel_is(released, tmp_pa
     clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     for program, *arguments in commands[1:]:
         subprocess.run([programs / program, *arguments], cwd=tmp_path, env=clean, check=True)
-    sent = read(tmp_path / "commands.csv")
+    sent = pd.read_csv(tmp_path / "commands.csv")
     commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
     hit = arm.forward(commanded + offsets)[:, :3, 3]
     assert np.abs(hit - reached[:5]).max() < 1e-3 < np.ptp(arm.forward(commanded)[:, :3, 3] - hit)

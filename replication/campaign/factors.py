@@ -15,7 +15,7 @@ class Row(NamedTuple):
     """A row of the design."""
 
     number: int  # 0 is the reference study, with the first level of each factor
-    levels: dict[str, Any]  # of each factor
+    levels: dict[str, Any]  # the level of each factor
     share: float  # in [0, 1), where among all assignments of the damage one would be taken
 
 

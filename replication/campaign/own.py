@@ -17,7 +17,7 @@ from replication.training.tuned import rules_of, trained
 def tune(study: Study, learner: str, scenario: Path) -> pd.DataFrame:
     """Rows of settings of a learner, one for each number of iterations that the study trains it.
 
-    It is tuned on the study's own scenario, in a file.
+    It is tuned on the study's own scenario, whose file is `scenario`.
     """
     rules = rules_of(study.every_learner[learner])
     lengths = tuple(sorted(iterations for name, iterations in trained(study) if name == learner))

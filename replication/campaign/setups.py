@@ -30,12 +30,12 @@ class Setup(Frozen):
     """A row of the design."""
 
     setup: int  # its number
-    row: int  # that of the design's sequence; those between two setups were refused by a robot
-    seed: int  # of searches, poses and trainings
-    levels: dict[str, str]  # of each factor
+    row: int  # its number in the design's sequence; robots refused the rows between two setups
+    seed: int  # for searches, poses and trainings
+    levels: dict[str, str]  # the level of each factor
     # at the centre of the workspace, the joints in the order of the configuration
     home_deg: tuple[float, ...]
-    homes_refused: int  # by the controller, before this one
+    homes_refused: int  # how many the controller refused before this one
     damage: tuple[Entry, ...]  # the paper's, as assigned to the robot
     # mean errors of the arm without correction
     position_error_cm: float

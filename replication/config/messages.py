@@ -12,7 +12,7 @@ LONGEST = 60  # characters of a value that are shown
 
 
 class InvalidConfiguration(RecalibError):
-    """A configuration with mistakes: a line for each of the first; `mistakes` are all lines."""
+    """A configuration with mistakes; the message shows the first of `mistakes`, a line each."""
 
     def __init__(self, mistakes: Sequence[str]):
         self.mistakes = list(mistakes)
@@ -27,7 +27,7 @@ KeyPath = tuple[str | int, ...]
 class Mistake(NamedTuple):
     """What is wrong at the path of a key."""
 
-    path: KeyPath  # of the key
+    path: KeyPath  # the path of the key
     fault: str  # the rest of a sentence that begins with the path
     # other keys that do not go together with this one: the mistake is reported at the first of them
     # that the user's sources set

@@ -55,7 +55,7 @@ def placed(source: Source) -> Placed:
 def _at_its_place(
     mistakes: Iterable[Mistake], whole: Placed, own: Sequence[str]
 ) -> InvalidConfiguration:
-    """The mistakes at the user's `own` sources, in order; what uses of an anchor share, once."""
+    """Mistakes by their lines in the user's `own` sources; one within an anchor is listed once."""
     lines: dict[tuple[Place, str], Mistake] = {}
     for mistake in mistakes:
         places = [whole.at(path).place for path in (mistake.path, *mistake.also)]

@@ -8,7 +8,7 @@ IMPROVED, RITTER = "improved", "ritter"  # the learners of the paper
 class Switch(NamedTuple):
     """One of the four changes that lead from Ritter's algorithm to the improved one."""
 
-    key: str  # of a learner's settings
+    key: str  # the key in a learner's settings
     # what each of the paper's learners has there
     ritter: str
     improved: str

@@ -48,7 +48,7 @@ def moves_to_reach(history: pd.DataFrame, errors: Sequence[str], threshold: floa
 def real_errors(runs: Sequence[Path]) -> pd.DataFrame:
     """Errors on the real arm: a row for each learner and number of poses, or moves on its twin.
 
-    The files have a row for each of their subsets.
+    Each file has a row for each random subset of the poses.
     """
     rows = []
     table = pd.concat(map(pd.read_csv, runs))

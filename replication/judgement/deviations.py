@@ -22,21 +22,21 @@ class Change(Frozen):
     """A change after a result had been seen."""
 
     when: str  # the time of the commit, in UTC
-    commit: str  # that shows it
-    what: str  # was changed
+    commit: str  # the commit that shows it
+    what: str  # what was changed
     verdict: str  # what it did to verdicts
 
 
 class Deviation(Change):
     """A change of the registration of the campaign in force."""
 
-    kind: Literal["criterion", "choice", "design", "code"]  # of the change
+    kind: Literal["criterion", "choice", "design", "code"]  # what was changed: its kind
     # what was registered, and what counts now
     before: str
     after: str
-    why: str  # it was changed
-    seen: str  # the results that were known
-    # of the changed parts, by name, since then, or `REMOVED`
+    why: str  # why it was changed
+    seen: str  # which results were known then
+    # the new digests of the changed parts, by name, or `REMOVED`
     digests: dict[str, str] = Field(default={})
 
 

@@ -22,7 +22,7 @@ class NotMeasured(RecalibError):
 
 
 class Evidence:
-    """Results of a study in a folder of the project; what it lacks raises NotMeasured."""
+    """Results of a study below the project's folder; what is missing raises NotMeasured."""
 
     def __init__(self, study: Study, project: Path = Path()):
         self.study, self._project = study, project

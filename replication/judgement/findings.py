@@ -16,8 +16,8 @@ class Number(Frozen):
     """A number with its intervals."""
 
     name: str  # what it is
-    system: str  # of which algorithm; empty if the name says it
-    value: float  # of the number; None if only a bound is known
+    system: str  # the algorithm that it is measured on; empty if the name says it
+    value: float  # the number, or its bound if only that is known
     interval: tuple[float, float] | None = None  # 95 % of the mean over setups, or of runs
     # in which one more study in another setup would find its number
     predictive_interval: tuple[float, float] | None = None
@@ -27,21 +27,21 @@ class Number(Frozen):
 class Spread(Frozen):
     """By how much a number differs from setup to setup: standard deviations of its logarithm."""
 
-    between: float  # setups, without the variation between replicates, and its interval
+    between: float  # between setups, without the variation between replicates
     between_interval: tuple[float, float]
     luck: float  # between measurements of the same setup, and its interval
     luck_interval: tuple[float, float]
-    setups: int  # in which it was measured
+    setups: int  # how many measured it
     unsettled: int  # how many of its searches have not converged
-    shares: dict[str, float]  # of setups with each effect
+    shares: dict[str, float]  # the share of setups with each effect
     factor: str | None = None  # what it depends on most, beyond chance
 
 
 class Finding(Frozen):
     """A claim of the paper, its measurements, and the verdict."""
 
-    id: str  # of the claim
-    section: str  # of the paper
+    id: str  # the claim's name
+    section: str  # the section of the paper
     statement: str  # the paper's own words
     claim: str  # what they say, in a sentence
     published: str | None  # the paper's number, if any
@@ -80,7 +80,7 @@ def spread(
     model: Model, unsettled: int, shares: dict[Verdict, float], factor: str | None
 ) -> Spread:
     """How a number differs from setup to setup."""
-    between, luck = (Estimate(*map(rounded, its)) for its in (model.heterogeneity, model.luck))
+    between, luck = (Estimate(*map(rounded, part)) for part in (model.heterogeneity, model.luck))
     return Spread(
         between=between.mean,
         between_interval=between[1:],

@@ -23,7 +23,7 @@ from replication.training.tuned import Tuned, rules_of
 def measure(study: Study, scenarios: Sequence[Path], own: Path) -> tuple[pd.DataFrame, ...]:
     """Coupling, nearness, propagation, quantisation, solutions and visits: without a learner.
 
-    The files are scenarios of the study's robot, and its own one, the paper's damage.
+    `scenarios` are files of the study's robot, as resolved; `own` is that of the paper's damage.
     """
     plan, seed, resolved = study.mapping, study.seed, [*map(Resolved.read, scenarios)]
     damage = Resolved.read(own)

@@ -11,7 +11,7 @@ from recalib.files.storage import whole
 def typeset(source: Path, article: Path, project: Path = Path()) -> None:
     """Write the article as a PDF, tagged for screen readers, with the fonts of its figures alone.
 
-    Paths in its source in Typst begin in the project's folder.
+    Its `source` is in Typst; paths in there begin at the project's folder.
 
     Raises typst.TypstError: a reference, a figure or a sign that Typst does not know.
     """

@@ -38,7 +38,7 @@ class Judged:
 
     statement: Statement  # what the paper says
     finding: Finding | None  # None if it was not measured
-    needs: str  # then, what would measure it, unless it is the campaign
+    needs: str  # what would measure it if nothing has, unless it is the campaign
     changed: bool  # whether its criterion changed after a result had been seen
     # names and systems of those of its numbers that are shares of an error
     shares: frozenset[tuple[str, str]]
@@ -99,7 +99,7 @@ class Judged:
 
 
 class Contents:
-    """Everything that a template can show, with figures in files; computed when a page asks."""
+    """Everything that a template can show, computed when a page asks. `figures` are files."""
 
     def __init__(self, study: Study, figures: Iterable[Path] = (), project: Path = Path()):
         self.study, self.project = study, project

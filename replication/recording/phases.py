@@ -70,7 +70,7 @@ def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray) -> Motion
 def _visits(start: np.ndarray, stops: np.ndarray, progress: np.ndarray) -> np.ndarray:
     """Angles (stop x frame, joint) of smooth moves from `start` from stop to stop (stop, joint).
 
-    Progress (frame,) is that on each way, in [0, 1], if the arm moved evenly.
+    `progress` (frame,) is the part of a way that is done, in [0, 1], if the arm moved evenly.
     """
     eased = (progress**2 * (3 - 2 * progress))[:, None]  # at rest at both ends
     starts = np.concatenate([start[None], stops[:-1]])[:, None]

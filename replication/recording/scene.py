@@ -49,12 +49,12 @@ EDGE = 0.012  # radius of an outline's lines
 class Gripper(NamedTuple):
     """A gripper as it is drawn."""
 
-    half: float  # of its thickness, in units of `Scene.unit`
-    colour: Colour  # of its boxes
+    half: float  # half its thickness, in units of `Scene.unit`
+    colour: Colour
     fill: rr.components.FillMode  # whether they are solid, or their edges
 
 
-# each fits into those before
+# Each fits into those before.
 OUTLINE = Gripper(0.05, WHITE, rr.components.FillMode.MajorWireframe)
 REAL = Gripper(0.035, REACHED, rr.components.FillMode.Solid)
 ASSUMED = Gripper(0.03, NOMINAL, rr.components.FillMode.Solid)

@@ -23,7 +23,7 @@ class Peer(NamedTuple):
 
     label: str  # what it is called
     needs: str  # what it needs to know
-    kind: str  # of `recalib.learners.kinds`; empty for that which learns nothing
+    kind: str  # one of `recalib.learners.kinds`; empty for the one that learns nothing
     settings: Mapping[str, Any]  # what it is made with
 
 

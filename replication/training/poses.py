@@ -74,9 +74,9 @@ ORDERS = {"random": _independent, "even": _spread_evenly}
 
 @dataclass(frozen=True)
 class _Poses:
-    """Poses of several runs, in workspace coordinates. Raises ValueError: some serve for both."""
+    """Poses of several runs, in workspace coordinates. Raises ValueError: the two sets overlap."""
 
-    name: str  # of their stream
+    name: str  # the name of their stream
     desired: np.ndarray  # (run, iteration, 6) to learn from
     tests: np.ndarray  # (run, pose, 6) to be measured on
 

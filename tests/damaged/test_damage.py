@@ -1,8 +1,8 @@
 """What damages do to an arm: to its links, its base, its encoders and its gears."""
 
 import numpy as np
+import pinocchio as pin
 import pytest
-from scipy.spatial.transform import Rotation
 
 from recalib import (
     Backlash,
@@ -31,9 +31,8 @@ def test_no_damage_is_the_nominal_arm_which_stays_whole(robot):
 
 
 def test_the_whole_robot_moved_moves_every_pose(robot):
-    shift = np.eye(4)
-    shift[:3, :3] = Rotation.from_euler("xyz", [0.1, -0.2, 0.3]).as_matrix()
-    shift[:3, 3] = 0.01, -0.02, 0.03
+    turn = pin.rpy.rpyToMatrix(0.1, -0.2, 0.3)
+    shift = pin.SE3(turn, np.array([0.01, -0.02, 0.03])).homogeneous
     damaged = apply(robot, [BaseShift(translate=(0.01, -0.02, 0.03), rotate=(0.1, -0.2, 0.3))])
     assert np.allclose(damaged.forward(ANGLES), shift @ robot.arm.forward(ANGLES))
     damages = [BaseShift(rotate=(0, 0, np.pi / 2)), BaseShift(translate=(1, 0, 0))]

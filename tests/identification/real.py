@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
+import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
@@ -11,13 +12,12 @@ from recalib.identification.model import ErrorModel, nearest_rotation
 
 ARMS = {"UR10": ("ur10_robot.urdf", "tool0"), "Panda": ("panda.urdf", "panda_link8")}
 NOISE = 2e-4, np.radians(0.02)  # m, rad
+BALL, SOCKETS = np.array([0.02, -0.01, 0.12]), np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
 
 
 def anywhere(random, reach):
-    frame = np.eye(4)
-    frame[:3, :3] = Rotation.random(rng=random).as_matrix()
-    frame[:3, 3] = random.uniform(-reach, reach, 3)
-    return frame
+    turn = Rotation.random(rng=random).as_matrix()
+    return pin.SE3(turn, random.uniform(-reach, reach, 3)).homogeneous
 
 
 def geometry_of(arm, observations: Observations) -> Calibration:

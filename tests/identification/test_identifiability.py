@@ -8,7 +8,7 @@ from recalib.identification import Unseen, identify
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.model import ErrorModel
 from tests.arms import INDUSTRIAL, RAILED, urdf
-from tests.identification.real import Real, geometry_of
+from tests.identification.real import BALL, SOCKETS, Real, geometry_of
 
 BASE, OFFSET, TARGET = range(6), 48, 42  # numbers of the Panda's parameters
 
@@ -54,9 +54,8 @@ def test_offsets_of_the_first_and_last_joint_are_moves_of_what_stands_beside_the
 
 def test_what_a_ball_in_sockets_leaves_open_no_other_postures_in_them_tell(panda):
     """The ball is always at the socket, such as when all of the arm is a little higher."""
-    real, ball = Real(panda, 1), np.array([0.02, -0.01, 0.12])
-    sockets = np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
-    joints = np.concatenate([real.touching(ball, socket, 80) for socket in sockets])
+    real = Real(panda, 1)
+    joints = np.concatenate([real.touching(BALL, socket, 80) for socket in SOCKETS])
     sockets = np.repeat([0, 1], 80)
     observations = Observations(joints, sockets=sockets, distances=[Distance(0, 1, 0.3)])
     open_ones = unidentifiable_parameters(geometry_of(panda, observations), observations)

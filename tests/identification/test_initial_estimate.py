@@ -22,7 +22,7 @@ from recalib.identification.closed_forms import _smallest
 from recalib.identification.initial_estimate import _is_open
 from recalib.identification.model import HELD, NO_ERRORS, ErrorModel
 from tests.arms import GANTRY, SCARA, urdf
-from tests.identification.real import ARMS, Real, aligned, geometry_of
+from tests.identification.real import ARMS, BALL, SOCKETS, Real, aligned, geometry_of
 
 
 @pytest.fixture(scope="module", params=ARMS)
@@ -137,9 +137,6 @@ def test_a_socket_beyond_the_known_ones_is_refused(panda):
     observations = Observations(np.zeros((3, 7)), sockets=np.zeros(3, dtype=int))
     with pytest.raises(BadMeasurement, match="socket of measurement 0"):
         identify(ErrorModel(panda, OFFSETS), observations)
-
-
-BALL, SOCKETS = np.array([0.02, -0.01, 0.12]), np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
 
 
 @pytest.mark.parametrize("text", [SCARA, GANTRY], ids=["SCARA", "gantry"])

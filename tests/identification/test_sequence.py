@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
+import pinocchio as pin
 import pytest
-from scipy.spatial.transform import Rotation
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification import calibrate, identify_by_consensus
@@ -42,11 +42,9 @@ def test_a_jump_of_any_size_is_named_wherever_it_is_before_its_rows_are_outliers
     first = int(random.integers(5, count - 4))
     joints = MIDDLE + random.uniform(-AROUND, AROUND, (count, 6))
     poses = real.poses(joints)
-    motion = np.eye(4)
     size = np.exp(random.uniform(np.log(5 * NOISE[0]), np.log(0.08)))
-    motion[:3, 3] = size * np.array([0.6, 0, 0.8])
     turn = random.integers(2) * np.exp(random.uniform(np.log(1e-3), np.log(np.radians(3))))
-    motion[:3, :3] = Rotation.from_rotvec([0.0, turn, 0.0]).as_matrix()
+    motion = pin.SE3(pin.exp3(turn * np.eye(3)[1]), size * np.array([0.6, 0, 0.8])).homogeneous
     poses[first:] = motion @ poses[first:]
     observations = Observations(joints, poses if seed % 2 else poses[:, :3, 3])
     fault, *_ = faults(geometry_of(ur10, observations), observations)
@@ -147,10 +145,10 @@ def calibrated(ur10, joints, poses, seed: int):
 def test_rows_measured_from_elsewhere_are_named_with_the_motion(ur10, seed):
     joints, poses, random = measured(ur10, seed)
     first, count = int(random.integers(2, 40)), int(random.integers(5, 17))
-    motion, middle = np.eye(4), poses[:, :3, 3].mean(axis=0)
+    middle = poses[:, :3, 3].mean(axis=0)
     distance, turn = random.uniform(3e-3, 0.05), random.uniform(0, np.radians(1))
-    motion[:3, :3] = Rotation.from_rotvec([0, 0.6 * turn, 0.8 * turn]).as_matrix()
-    motion[:3, 3] = middle + distance * np.eye(3)[0] - motion[:3, :3] @ middle
+    turned = pin.exp3(turn * np.array([0, 0.6, 0.8]))
+    motion = pin.SE3(turned, middle + distance * np.eye(3)[0] - turned @ middle).homogeneous
     rows = slice(first, first + count)
     expected = np.linalg.norm((motion @ poses[rows])[:, :3, 3].mean(0) - poses[rows, :3, 3].mean(0))
     poses[rows] = motion @ poses[rows]

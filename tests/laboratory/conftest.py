@@ -1,8 +1,7 @@
 """A small arm that is bent, measurements of it, and its calibration."""
 
-import csv
-
 import numpy as np
+import pandas as pd
 import pytest
 
 from recalib import Calibrated, Chain, calibrate_arm, load_arm
@@ -39,10 +38,7 @@ def to_instrument(positions: np.ndarray) -> np.ndarray:
 
 
 def write(path, columns: dict[str, np.ndarray]) -> None:
-    with path.open("w", newline="") as stream:
-        writer = csv.writer(stream)
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values(), strict=True))
+    pd.DataFrame(columns).to_csv(path, index=False)
 
 
 def in_degrees(arm, joints: np.ndarray) -> dict[str, np.ndarray]:
@@ -63,7 +59,7 @@ def calibrated_by(arm, folder, joints, positions, *description) -> Calibrated:
     return calibrate_arm(folder / "arm.urdf", folder / "rows.csv", *description)
 
 
-def angles_in(columns: dict[str, np.ndarray], arm) -> np.ndarray:
+def angles_in(columns: pd.DataFrame, arm) -> np.ndarray:
     """Joint angles (n, 3) [rad] of a table."""
     return np.radians([columns[f"{joint} [deg]"] for joint in arm.joints]).T
 
@@ -71,12 +67,6 @@ def angles_in(columns: dict[str, np.ndarray], arm) -> np.ndarray:
 def postures(seed: int, count: int = ROWS, part: float = 1.0) -> np.ndarray:
     """Joint angles (count, 3) [rad] in this part of the measured ranges."""
     return MIDDLE + part * RANGE * np.random.default_rng(seed).uniform(-1, 1, (count, 3))
-
-
-def read(path) -> dict[str, np.ndarray]:
-    with path.open(newline="") as stream:
-        heading, *rows = csv.reader(stream)
-    return dict(zip(heading, np.array(rows, dtype=float).T, strict=True))
 
 
 @pytest.fixture(scope="session")
@@ -94,10 +84,9 @@ def arm(folder):
 @pytest.fixture(scope="session")
 def calibrated(arm, folder):
     """By the command line; neither the camera's place nor the target's on the tool is known."""
-    random = np.random.default_rng(8)
-    joints = MIDDLE + RANGE * random.uniform(-1, 1, (ROWS, 3))
-    positions = true_positions(arm, joints) + NOISE * random.standard_normal((ROWS, 3))
-    write(folder / "measurements.csv", table(arm, joints, to_instrument(positions)))
+    joints = postures(8)
+    positions = to_instrument(measured(arm, joints, 8))
+    write(folder / "measurements.csv", table(arm, joints, positions))
     files = folder / "arm.urdf", folder / "measurements.csv"
     out = folder / "calibration"
     assert main(["calibrate", *map(str, files), "--recording", f"--out={out}"]) == DONE

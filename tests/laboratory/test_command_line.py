@@ -4,17 +4,18 @@ import hashlib
 import json
 import os
 import re
-import subprocess
 import sys
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from recalib import OFFSETS as TERMS
 from recalib import load_arm, load_correction
 from recalib.identification.model import ErrorModel
 from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
+from tests.conftest import run
 from tests.laboratory.conftest import (
     ARM,
     NOISE,
@@ -24,7 +25,6 @@ from tests.laboratory.conftest import (
     in_millimetres,
     measured,
     postures,
-    read,
     table,
     to_instrument,
     true_positions,
@@ -63,7 +63,7 @@ def test_commands_take_the_calibrated_arm_to_what_is_desired(calibrated, arm, fo
     write(folder / "desired.csv", in_millimetres(goals))
     out = folder / "commands.csv"
     assert main(["correct", str(calibrated), str(folder / "desired.csv"), f"--out={out}"]) == DONE
-    columns = read(out)
+    columns = pd.read_csv(out)
     commanded = angles_in(columns, arm)
     assert np.allclose(commanded, joints, atol=1e-6)
     fake = 1e-3 * np.array([columns[f"{axis}_fake [mm]"] for axis in "xyz"]).T
@@ -89,7 +89,7 @@ def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_
     desired, out = str(folder / "seen.csv"), folder / "seen_commands.csv"
     arguments = ["correct", str(calibrated / "correction.npz"), desired, f"--out={out}"]
     assert main(arguments) == DONE
-    columns = read(out)
+    columns = pd.read_csv(out)
     commanded = angles_in(columns, arm)
     reached = to_instrument(true_positions(arm, commanded))
     assert np.abs(reached - goals).max() < 6 * NOISE
@@ -167,7 +167,7 @@ def test_beyond_what_was_learned_it_warns(in_base, folder, capsys):
 def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, capsys):
     out = folder / "next.csv"
     assert main(["next", str(calibrated), "--count=4", f"--out={out}"]) == DONE
-    proposed = angles_in(read(out), arm)
+    proposed = angles_in(pd.read_csv(out), arm)
     assert proposed.shape == (4, 3) and np.abs(proposed).max() < 0.95 * 2
     message = (
         r"4 postures in .*, the most informative first\.\nThey would reduce the uncertainty of"
@@ -225,7 +225,7 @@ def test_a_calibration_writes_nothing_at_home_and_leaves_nothing_temporary(calib
     elsewhere = {CACHE, "XDG_CACHE_HOME", "XDG_CONFIG_HOME"}
     inherited = {name: value for name, value in os.environ.items() if name not in elsewhere}
     files = [str(calibrated.parent / name) for name in ("arm.urdf", "measurements.csv")]
-    command = [sys.executable, "-m", "recalib", "calibrate", *files, f"--out={out}"]
-    subprocess.run(command, env=inherited | own, check=True, capture_output=True)
+    command = sys.executable, "-m", "recalib", "calibrate", *files, f"--out={out}"
+    run(*command, env=inherited | own, check=True)
     assert (out / "page.html").exists()
     assert not [*home.rglob("*"), *temporary.rglob("*")]

@@ -1,11 +1,12 @@
 """An arm of which two sections follow one motor, from its table to commands."""
 
 import numpy as np
+import pandas as pd
 
 from recalib import calibrate, calibrate_arm, load_arm
 from recalib.laboratory.command_line import DONE, main
 from tests.arms import urdf
-from tests.laboratory.conftest import read, write
+from tests.laboratory.conftest import write
 
 ROWS = 40
 SECTION = '<mimic joint="lift" multiplier="0.5" offset="-0.1"/>'
@@ -44,13 +45,17 @@ def test_one_column_moves_both_sections(tmp_path):
     out = tmp_path / "commands.csv"
     given = [str(tmp_path / "out"), f"{tmp_path}/desired.csv"]
     assert main(["correct", *given, f"--out={out}"]) == DONE
-    cells = read(out)
+    cells = pd.read_csv(out)
     commands = np.array([cells[name] for name in ("lift [mm]", "turn [deg]", "joint yaw [deg]")]).T
     reached = true(commands / [1e3, 180 / np.pi, 180 / np.pi])
     assert np.linalg.norm(reached - true(fresh), axis=1).max() < 2e-4
     arguments = ["next", str(tmp_path / "out"), "--count=3", f"--out={tmp_path / 'next.csv'}"]
     assert main(arguments) == DONE
-    assert [*read(tmp_path / "next.csv")][:3] == ["lift [mm]", "turn [deg]", "joint yaw [deg]"]
+    assert [*pd.read_csv(tmp_path / "next.csv")][:3] == [
+        "lift [mm]",
+        "turn [deg]",
+        "joint yaw [deg]",
+    ]
     result, table = calibrate(arm, columns, measured), calibrate_arm(*files)
     assert np.allclose(result.predict(fresh), table.predict(fresh), atol=1e-9)
     assert np.abs(result.predict(fresh)[:, :3, 3] - true(fresh)).max() < 2e-4

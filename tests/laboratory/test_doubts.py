@@ -23,8 +23,6 @@ from tests.laboratory.conftest import MIDDLE, RANGE, calibrated_by, measured, po
 ROWS = 60
 LATE = "try to measure at rest, or to synchronise both"
 PARTS = "try rows 1 to 21 and 22 to 60 each by themselves"
-
-
 MODEL = ErrorModel(load_arm("ur10_robot.urdf", "tool0"), OFFSETS)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import Description, InvalidFile, load_arm, read_description
+from recalib import Description, InvalidFile, read_description
 from recalib.laboratory.tables.measurements import read_desired, read_measurements
 from tests.arms import urdf
 from tests.laboratory.conftest import write as write_columns
@@ -14,10 +14,8 @@ GANTRY = urdf(("rail", "prismatic", "1 0 0", "0 0 0"), ("wrist", "revolute", "0 
 
 
 @pytest.fixture(scope="module")
-def gantry(tmp_path_factory):
-    path = tmp_path_factory.mktemp("gantry") / "gantry.urdf"
-    path.write_text(GANTRY)
-    return load_arm(path)
+def gantry(load):
+    return load(GANTRY)
 
 
 @pytest.fixture

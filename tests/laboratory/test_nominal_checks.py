@@ -20,36 +20,28 @@ TOOL_POINT = pin.SE3(np.eye(3), np.array([0.0, 0.02, 0.12])).homogeneous  # m
 
 
 @pytest.fixture(scope="module")
-def arm():
-    return load_arm("ur10_robot.urdf", "tool0")
-
-
-@pytest.fixture(scope="module")
 def joints():
     middle = np.radians([20, -65, 100, -40, 95, 10])
     return middle + np.random.default_rng(3).uniform(-0.7, 0.7, (40, 6))
 
 
 @pytest.fixture(scope="module")
-def nominal(arm, joints):
+def nominal(ur10, joints):
     """Where a tool point of the nominal arm is, in its base."""
-    return (arm.forward(joints) @ TOOL_POINT)[:, :3, 3]
+    return (ur10.forward(joints) @ TOOL_POINT)[:, :3, 3]
 
 
 def turned(degrees: float) -> np.ndarray:
-    pose = np.eye(4)
-    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
-    pose[:2, :2] = [[c, -s], [s, c]]
-    return pose
+    return pin.SE3(pin.exp3(np.radians([0, 0, degrees])), np.zeros(3)).homogeneous
 
 
-def test_positions_of_the_nominal_arm_pass(arm, joints, nominal):
-    assert check_nominal(arm, joints, nominal, np.eye(4), TOOL_POINT) is None
-    assert check_nominal(arm, joints, arm.forward(joints)[:, :3, 3]) is None
+def test_positions_of_the_nominal_arm_pass(ur10, joints, nominal):
+    assert check_nominal(ur10, joints, nominal, np.eye(4), TOOL_POINT) is None
+    assert check_nominal(ur10, joints, ur10.forward(joints)[:, :3, 3]) is None
 
 
-def test_frames_that_nobody_knows_are_told_not_refused(arm, joints, nominal):
-    offset = check_nominal(arm, joints, nominal @ turned(170)[:3, :3].T)
+def test_frames_that_nobody_knows_are_told_not_refused(ur10, joints, nominal):
+    offset = check_nominal(ur10, joints, nominal @ turned(170)[:3, :3].T)
     point = "a tool point at (0, 20, 120) mm of the tool link"
     assert offset == f"the base turned by 170.0 deg about (0, 0, 1) and {point}"
 
@@ -105,20 +97,20 @@ MISTAKES = {
 
 
 @pytest.mark.parametrize(("spoil", "mistake"), MISTAKES.values(), ids=MISTAKES)
-def test_the_likely_mistake_is_named(spoil, mistake, arm, joints, nominal):
+def test_the_likely_mistake_is_named(spoil, mistake, ur10, joints, nominal):
     with pytest.raises(Mistaken) as refusal:
-        check_nominal(arm, *spoil(joints, nominal), np.eye(4), TOOL_POINT)
+        check_nominal(ur10, *spoil(joints, nominal), np.eye(4), TOOL_POINT)
     assert f"likely: {mistake}" in str(refusal.value)
 
 
 @pytest.mark.parametrize("name", [*[*MISTAKES][:6], "a left-handed frame"])
-def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
+def test_so_it_is_where_positions_are_measured_from_somewhere(name, ur10):
     spoil, mistake = MISTAKES[name]
-    real = Real(arm, 2)
+    real = Real(ur10, 2)
     joints = real.postures(40)
     observations = Observations(*spoil(joints, real.poses(joints)[:, :3, 3]))
     with pytest.raises(NoInitialEstimate, match=f"; likely: {mistake}"):
-        checked_frames(arm, observations, Description())
+        checked_frames(ur10, observations, Description())
 
 
 @pytest.mark.parametrize(("factor", "unit"), [(180 / np.pi, "degrees"), (np.pi / 180, "radians")])
@@ -131,12 +123,12 @@ def test_where_a_joint_slides_the_unit_of_the_others_is_named(factor, unit):
     assert mistake_in(arm, Observations(joints, poses)).startswith(f"joint columns in {unit}")
 
 
-def test_the_rounding_of_a_perfect_arm_is_no_mistake(arm):
+def test_the_rounding_of_a_perfect_arm_is_no_mistake(ur10):
     """Joints moved one after the other: closed forms leave more or fewer digits of it."""
     for seed in range(12):
         joints = np.tile(np.radians([20, -65, 100, -40, 95, 10]), (36, 1))
         joints[range(36), np.arange(36) // 6] += np.random.default_rng(seed).uniform(-0.7, 0.7, 36)
-        assert mistake_in(arm, Observations(joints, arm.forward(joints))) is None
+        assert mistake_in(ur10, Observations(joints, ur10.forward(joints))) is None
 
 
 @pytest.mark.parametrize("seed", [78, 121])
@@ -157,10 +149,10 @@ def reread(poses: np.ndarray, change) -> np.ndarray:
     return changed
 
 
-def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
+def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(ur10, joints):
     right = lambda r: euler("xyz", [[0.2, np.pi / 2, 0.0]] * len(r))  # noqa: E731
-    poses = reread(arm.forward(joints), right)
-    assert likely_mistake(arm, joints, poses, most_steps=1) is None
+    poses = reread(ur10.forward(joints), right)
+    assert likely_mistake(ur10, joints, poses, most_steps=1) is None
 
 
 REREAD = {  # by the mistake, a change of rotations r
@@ -198,29 +190,29 @@ POSES = {  # by the mistake, a change of joints and poses
 
 
 @pytest.mark.parametrize(("mistake", "spoil"), POSES.items(), ids=POSES)
-def test_so_it_is_of_poses(mistake, spoil, arm):
-    real = Real(arm, 2)
+def test_so_it_is_of_poses(mistake, spoil, ur10):
+    real = Real(ur10, 2)
     joints = real.postures(40)
     with pytest.raises(NoInitialEstimate, match=f"; likely: {mistake}"):
-        checked_frames(arm, Observations(*spoil(joints, real.poses(joints))), Description())
+        checked_frames(ur10, Observations(*spoil(joints, real.poses(joints))), Description())
 
 
-def test_a_tool_that_was_forgotten_is_named(arm, joints, nominal):
+def test_a_tool_that_was_forgotten_is_named(ur10, joints, nominal):
     with pytest.raises(Mistaken, match="likely: a tool point at"):
-        check_nominal(arm, joints, nominal, np.eye(4), np.eye(4))
+        check_nominal(ur10, joints, nominal, np.eye(4), np.eye(4))
 
 
-def test_where_all_positions_are_one_nothing_explains_them(arm, joints, nominal):
+def test_where_all_positions_are_one_nothing_explains_them(ur10, joints, nominal):
     with pytest.raises(Mistaken, match="is it another arm"):
-        check_nominal(arm, joints, np.ones_like(nominal))
+        check_nominal(ur10, joints, np.ones_like(nominal))
 
 
-def test_a_mistake_leaves_no_row_far_off(arm, joints, nominal):
+def test_a_mistake_leaves_no_row_far_off(ur10, joints, nominal):
     """As a row that was measured elsewhere."""
     wrong, observed = changed(joints, 1, np.negative), nominal.copy()
-    assert likely_mistake(arm, wrong, observed) == "the sign of shoulder_lift_joint"
+    assert likely_mistake(ur10, wrong, observed) == "the sign of shoulder_lift_joint"
     observed[len(observed) // 2] += 0.02
-    assert likely_mistake(arm, wrong, observed) is None
+    assert likely_mistake(ur10, wrong, observed) is None
 
 
 def test_another_arm_is_no_mistake_of_a_column(joints, nominal):
@@ -239,13 +231,13 @@ def test_another_arm_is_no_mistake_of_a_column(joints, nominal):
     ],
     ids=["units of joints", "unit of a joint", "unit of positions", "sign"],
 )
-def test_a_mistake_in_some_rows_is_named(spoil, words, count, arm):
-    real = Real(arm, 2)
+def test_a_mistake_in_some_rows_is_named(spoil, words, count, ur10):
+    real = Real(ur10, 2)
     joints = real.postures(40)
     places = real.poses(joints)[:, :3, 3]
-    geometry = geometry_of(arm, Observations(joints, places))
+    geometry = geometry_of(ur10, Observations(joints, places))
     assert mistake_of_outliers(geometry, Observations(joints, places)) is None
     joints[-count:], places[-count:] = spoil(joints[-count:], places[-count:])
     rows = Observations(joints, places)
-    told = mistake_of_outliers(geometry_of(arm, rows), rows)
+    told = mistake_of_outliers(geometry_of(ur10, rows), rows)
     assert told and re.match(f"{count} rows, from {41 - count} to 40, .*: {words}", told)

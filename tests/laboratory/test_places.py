@@ -19,21 +19,16 @@ from recalib.laboratory.report.folder import files_of
 from tests.arms import INDUSTRIAL
 from tests.conftest import few_folds
 from tests.identification.real import ARMS, Real
-from tests.laboratory.conftest import write
+from tests.laboratory.conftest import table, write
 
 URDF, TOOL = ARMS["UR10"]
 DRAWS = 12
 
 
-@pytest.fixture(scope="module")
-def arm():
-    return load_arm(URDF, TOOL)
-
-
 @pytest.mark.parametrize("text", [None, INDUSTRIAL], ids=["UR10", "industrial"])
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
-def test_places_are_known_as_well_as_other_noise_moves_them(arm, load, positions, text):
-    arm = arm if text is None else load(text)
+def test_places_are_known_as_well_as_other_noise_moves_them(ur10, load, positions, text):
+    arm = ur10 if text is None else load(text)
     real, guess, unidentifiable, drawn = Real(arm, 3), None, None, []
     joints = real.postures(40)
     for _ in range(DRAWS):
@@ -66,14 +61,13 @@ def test_places_are_known_as_well_as_other_noise_moves_them(arm, load, positions
 
 @pytest.fixture(scope="module")
 @few_folds()
-def calibrated(arm, tmp_path_factory):
+def calibrated(ur10, tmp_path_factory):
     """With gears that no URDF holds, in 60 postures with two targets in each."""
-    folder, real = tmp_path_factory.mktemp("places"), Real(arm, 3, 2, np.radians(0.03))
+    folder, real = tmp_path_factory.mktemp("places"), Real(ur10, 3, 2, np.radians(0.03))
     joints, numbers = np.repeat(real.postures(60), 2, axis=0), np.arange(120) % 2
     places = real.poses(joints, numbers)[:, :3, 3]
-    columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
-    columns |= {f"{axis} [m]": places[:, index] for index, axis in enumerate("xyz")}
-    write(folder / "m.csv", columns | {"target": np.array(["left", "right"])[numbers]})
+    targets = {"target": np.array(["left", "right"])[numbers]}
+    write(folder / "m.csv", table(ur10, joints, places) | targets)
     result = calibrate_arm(URDF, folder / "m.csv", tool=TOOL)
     assert result.validation.chosen == HYBRID
     write_new(folder / "out", files_of(result))
@@ -113,18 +107,16 @@ def read_places(folder: Path) -> list[dict[str, str]]:
 
 
 @few_folds()
-def test_an_arm_that_is_left_alone_may_have_an_offset_that_nothing_tells(arm, tmp_path):
-    real, turned = Real(arm, 3), np.eye(4)
+def test_an_arm_that_is_left_alone_may_have_an_offset_that_nothing_tells(ur10, tmp_path):
+    real, turned = Real(ur10, 3), np.eye(4)
     joints = real.postures(40)
     turned[:3, :3] = Rotation.from_euler("z", 0.5, degrees=True).as_matrix()
-    positions = (real.base @ turned @ arm.forward(joints))[:, :3, 3] + real.random.normal(
+    positions = (real.base @ turned @ ur10.forward(joints))[:, :3, 3] + real.random.normal(
         scale=5e-5, size=(40, 3)
     )
-    columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
-    columns |= {f"{axis} [m]": positions[:, index] for index, axis in enumerate("xyz")}
-    write(tmp_path / "m.csv", columns)
+    write(tmp_path / "m.csv", table(ur10, joints, positions))
     result = calibrate_arm(URDF, tmp_path / "m.csv", tool=TOOL)
     instrument, _ = result.places
-    assert not result.worthwhile and instrument.link == arm.base
+    assert not result.worthwhile and instrument.link == ur10.base
     off = np.linalg.norm((instrument.pose - np.linalg.inv(real.base))[:3, 3])
     assert instrument.deviations[0] < 1e-3 < off < 2 * instrument.real_deviations[0]

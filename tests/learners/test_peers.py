@@ -22,12 +22,10 @@ from recalib import (
 from recalib.learners import KINDS
 from recalib.loop import measure
 from replication.training import make_peer
-from tests.arms import RAILED, panda
+from tests.arms import RAILED
 from tests.learners.test_hierarchical import improved
 
 RUNS = 2
-
-
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 40, 6))
 TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
 
@@ -117,11 +115,6 @@ DAMAGES = (
     EncoderShift("panda_joint3", np.radians(4)),
     EncoderShift("panda_joint6", np.radians(-3)),
 )
-
-
-@pytest.fixture(scope="module")
-def redundant() -> Controller:
-    return Controller(panda())
 
 
 def remaining(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:

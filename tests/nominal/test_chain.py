@@ -89,8 +89,7 @@ def test_a_start_of_whole_numbers_does_not_round_what_is_found(arms):
     np.testing.assert_allclose(chain.forward(found[None])[0], poses, rtol=0, atol=1e-9)
     assert start.dtype == int
     assert errors.max() < 1e-9
-    _, chain = arms[0]
-    start = np.array([[0.1, -1.2, 1.3, 0.4, 0.5, 0.6]] * 3)
+    start = np.repeat(angles, 3, axis=0)
     poses = chain.forward(start[None])[0]
     poses[0, 0, 3] = start[1, 2] = np.nan  # all other numbers of the first residual are zero
     np.testing.assert_array_equal(chain.solve(poses, start)[1] < 1e-9, [False, False, True])

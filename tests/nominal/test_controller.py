@@ -12,14 +12,7 @@ from recalib import (
     position_error,
 )
 from replication.scenarios import nominal_controller
-from tests.arms import panda
 from tests.conftest import changed
-
-
-@pytest.fixture(scope="module")
-def redundant() -> Controller:
-    """Of seven joints."""
-    return Controller(panda())
 
 
 @pytest.fixture(params=["ur10", "ur5", "ur3", "z1", "panda"])

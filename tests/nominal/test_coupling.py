@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recalib import UnsuitableRobot, load_arm
+from recalib import UnsuitableRobot
 from recalib.nominal import arm_of
 from tests.arms import urdf
 
@@ -18,21 +18,9 @@ def mimic(joint: str, gain: float = 1.0, shift: float = 0.0) -> str:
     return f'<mimic joint="{joint}" multiplier="{gain!r}" offset="{shift!r}"/>'
 
 
-@pytest.fixture(scope="module")
-def loaded(tmp_path_factory):
-    """A function that loads the arm in a text."""
-    path = tmp_path_factory.mktemp("coupled") / "arm.urdf"
-
-    def load(text: str):
-        path.write_text(text)
-        return load_arm(path)
-
-    return load
-
-
 @given(GAIN, GAIN, st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1))
-def test_a_joint_follows_another_also_by_way_of_a_third(loaded, first, second, one, other, angle):
-    arm = loaded(
+def test_a_joint_follows_another_also_by_way_of_a_third(load, first, second, one, other, angle):
+    arm = load(
         urdf(
             ("a", "revolute", "0 0 1", "0 0 0.3"),
             ("b", "revolute", "0 1 0", "0.2 0 0", mimic("a", first, one)),
@@ -52,7 +40,7 @@ def test_a_joint_follows_another_also_by_way_of_a_third(loaded, first, second, o
         assert (np.abs(inside) <= 2 + 1e-9).all() and (np.abs(outside) > 2).any()
 
 
-def test_a_joint_outside_the_chain_may_drive_it(loaded):
+def test_a_joint_outside_the_chain_may_drive_it():
     """As the virtual joint of a telescope of several sections."""
     section = '<parent link="base"/><child link="motor"/><axis xyz="0 0 1"/>'
     motor = f'<link name="motor"/><joint name="lift" type="prismatic">{section}'
@@ -82,7 +70,7 @@ def test_a_joint_outside_the_chain_may_drive_it(loaded):
         ("end", "b follows 'end'"),
     ],
 )
-def test_a_joint_that_follows_none_that_moves_is_refused(joint, message, loaded):
+def test_a_joint_that_follows_none_that_moves_is_refused(joint, message, load):
     text = urdf(
         ("a", "revolute", "0 0 1", "0 0 0.3"),
         ("b", "revolute", "0 1 0", "0.2 0 0", mimic(joint)),
@@ -90,4 +78,4 @@ def test_a_joint_that_follows_none_that_moves_is_refused(joint, message, loaded)
         ("end", "fixed", "0 1 0", "0.2 0 0"),
     )
     with pytest.raises(UnsuitableRobot, match=message):
-        loaded(text)
+        load(text)

@@ -15,8 +15,6 @@ from recalib.nominal import find_urdf
 from tests.station.simulated import Simulated
 
 WAITS = {"APART": 0.0002, "SETTLING": 0.02, "PATIENCE": 0.3}  # s
-
-
 MOST = "recalib.laboratory.live.allowed.MOST"
 
 

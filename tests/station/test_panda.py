@@ -1,7 +1,6 @@
 """The page `panda_in_an_hour` is rehearsed: its commands in their order, on an arm in MuJoCo."""
 
 import re
-import subprocess
 import sys
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 from recalib import Observations, load_arm, load_correction
 from recalib.identification import solutions
 from recalib.laboratory.tables.table import read_table
-from tests.conftest import ROOT
+from tests.conftest import ROOT, run
 
 PAGE = ROOT / "docs" / "panda_in_an_hour.md"
 COMMANDS = [
@@ -41,14 +40,7 @@ def rehearsed(tmp_path_factory):
     for line in [*COMMANDS, f"python -c '{TRUTH}'"]:
         program, _, rest = line.partition(" ")
         interpreter = {"recalib": "-m recalib", "python": ""}[program]
-        process = subprocess.run(
-            f"{sys.executable} {interpreter} {rest}",
-            cwd=folder,
-            shell=True,
-            text=True,
-            capture_output=True,
-            check=False,
-        )
+        process = run(f"{sys.executable} {interpreter} {rest}", cwd=folder, shell=True)
         if "EGL" in process.stderr and not (folder / "pictures").exists():
             pytest.skip(f"no pictures here: {process.stderr.splitlines()[-1]}")
         assert process.returncode == 0, f"{line}\n{process.stderr}"

@@ -19,7 +19,7 @@ class Statement:
     """What the paper says, and what would support it."""
 
     id: str  # its name
-    section: str  # of the paper
+    section: str  # the section of the paper
     words: str  # the paper's own
     claim: str  # what they say, in a sentence
     criterion: str  # what supports the claim
@@ -39,7 +39,7 @@ class Statement:
 class OfSetups(Statement):
     """A claim that one number in all setups decides."""
 
-    name: str  # of the number
+    name: str  # what the number is called
     system: str  # the algorithm of which the paper speaks
     estimand: Estimand  # the number
     comparison: Comparison = RATIO  # with what it is compared

@@ -67,7 +67,7 @@ def nearness(statement: Statement, evidence: Evidence) -> Finding:
 
 
 def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
-    """The claims of the section; iterations of Figure 1, and `late` ones, to compare maps after."""
+    """The claims of the section: `iterations` of Figure 1, `late` ones to compare Ritter's maps."""
 
     def remaining(variant: str, error: Error = "both") -> Remaining:
         return Remaining(variant, late, error)

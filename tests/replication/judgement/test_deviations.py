@@ -44,8 +44,7 @@ def test_entries_are_in_the_order_of_time(record):
 
 def test_entries_have_the_times_of_their_commits(record):
     stated = {change.commit: change.when for change in changes(record)}
-    command = ["git", "show", "--no-patch", "--format=%ct", *stated]
-    process = run(*command)
+    process = run("git", "show", "--no-patch", "--format=%ct", *stated)
     if process.returncode:
         pytest.skip("needs the project's history")
     times = [datetime.fromtimestamp(int(time), UTC) for time in process.stdout.split()]

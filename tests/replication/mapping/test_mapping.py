@@ -87,8 +87,6 @@ def test_the_ball_is_uniform():
 
 
 OFFSETS = ball(np.random.default_rng(1), 4000, 6, 0.5)
-
-
 CENTRE = np.full(6, 0.2)
 MOMENT = np.square(OFFSETS).sum(axis=1).mean()  # |w - c|^2 in the ball, on average
 

@@ -3,14 +3,13 @@
 import base64
 import json
 import shutil
-import subprocess
 import zipfile
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
 
-from tests.conftest import ROOT
+from tests.conftest import ROOT, run
 
 pytest.importorskip("rocrate")
 from replication.pages import archive
@@ -26,8 +25,8 @@ def folder(study, project, monkeypatch) -> Path:
     monkeypatch.chdir(root)
     for name in FEW:
         shutil.copy(ROOT / name, root)
-    subprocess.run(["git", "init", "--quiet"], check=True)
-    subprocess.run(["git", "add", *FEW], check=True)
+    run("git", "init", "--quiet", cwd=root, check=True)
+    run("git", "add", *FEW, cwd=root, check=True)
     archive.NOTES.mkdir(parents=True)
     times = {"starttime": 1e9, "endtime": 1e9 + 5}
     note = {"rule": "claims", "input": ["results/summary.csv"]} | times
@@ -76,14 +75,14 @@ def test_all_that_is_named_is_there_and_the_job_of_a_result_is_said(unpacked):
 
 def test_checksums_tell_which_results_another_run_has_to_give(unpacked):
     published = unpacked / "published"
-    check = ["sha256sum", "--check", "--quiet", "SHA256SUMS"]
-    assert subprocess.run(check, cwd=published).returncode == 0
+    check = "sha256sum", "--check", "--quiet", "SHA256SUMS"
+    assert run(*check, cwd=published).returncode == 0
     listed = (published / "SHA256SUMS").read_text(encoding="utf-8")
     assert "figure1.svg" in listed
     assert "figure8.svg" not in listed  # `make` does not draw it
     assert "  claims.json\n" in listed and "  summary.csv\n" in listed
     (published / "claims.json").write_text("[]", encoding="utf-8")
-    spoilt = subprocess.run(check, cwd=published, capture_output=True, text=True)
+    spoilt = run(*check, cwd=published)
     assert spoilt.returncode != 0 and "claims.json: FAILED" in spoilt.stdout
 
 

@@ -1,7 +1,5 @@
 """A recording is written whole or not at all, and is that of a training of the study."""
 
-import subprocess
-
 import pandas as pd
 import pytest
 import rerun as rr
@@ -9,13 +7,12 @@ import rerun as rr
 from recalib import InvalidFile, LinkShortening
 from replication.recording import check_end, record, typical_seed
 from replication.recording.viewer import PROGRAM, quiet
-from tests.conftest import changed
+from tests.conftest import changed, run
 from tests.replication.recording.conftest import DAMAGES, OWN, trained
 
 
 def rrd(*command) -> bool:
-    process = subprocess.run([PROGRAM, "rrd", *command], env=quiet(), capture_output=True)
-    return process.returncode == 0
+    return run(PROGRAM, "rrd", *command, env=quiet()).returncode == 0
 
 
 def test_every_recording_is_valid_and_small(files):

@@ -103,19 +103,19 @@ def test_the_paper_allows_5760_different_assignments(robot):
 
 
 @pytest.fixture(scope="module")
-def assigned(plan):
+def assigned(plan, robot):
+    """All ways, the poses that they are compared at, their errors, and the way that is taken."""
     published = Published(position_error_cm=5.0, orientation_error_deg=3.0)
     amounts = {"shorten": (0.01, 0.04), "shift": (0.05,), "poses": 10}
     damage = PaperDamage.model_construct(published=published, **amounts)
-    return damage, *assign(plan.nominal("ur10"), damage, seed=1)
-
-
-def test_every_row_has_the_errors_of_its_damages(assigned, controller):
-    damage, table, assignment = assigned
-    robot = controller.robot
     ways = Ways(LINKS, damage.shorten, robot.joints, damage.shift)
-    assert len(table["distance"]) == len(ways) == 12 * 12
     poses = robot.workspace.sample(generator(1, "assignments"), 10)
+    return ways, poses, *assign(plan.nominal("ur10"), damage, seed=1)
+
+
+def test_every_row_has_the_errors_of_its_damages(assigned, controller, robot):
+    ways, poses, table, assignment = assigned
+    assert len(table["distance"]) == len(ways) == 12 * 12
     desired = robot.workspace.to_poses(poses)
     for index in range(0, len(ways), 29):
         achieved = apply(robot, ways[index]).forward(controller.inverse(desired))
@@ -127,10 +127,7 @@ def test_every_row_has_the_errors_of_its_damages(assigned, controller):
 
 
 def test_the_distance_is_the_larger_relative_deviation(assigned, controller):
-    damage, table, _ = assigned
-    robot = controller.robot
-    ways = Ways(LINKS, damage.shorten, robot.joints, damage.shift)
-    poses = robot.workspace.sample(generator(1, "assignments"), 10)
+    ways, poses, table, _ = assigned
     position, orientation, _ = (column[3] for column in table.values())
     exact = Published(position_error_cm=position, orientation_error_deg=orientation)
     off = Published(position_error_cm=position / 1.5, orientation_error_deg=orientation)
