@@ -11,6 +11,7 @@ from typing import NamedTuple
 import coverage
 import pytest
 
+CODE = ["recalib", "replication"]
 ENOUGH = 60  # seconds of processor time, in which a mutant meets its tests
 
 
@@ -30,7 +31,7 @@ class Watch:
     """A plugin of pytest that notes what tests reach."""
 
     def __init__(self):
-        self.cover = coverage.Coverage(data_file=None, source=["recalib"])
+        self.cover = coverage.Coverage(data_file=None, source=CODE)
         self.cover.start()
         self.fixtures, self.seconds, self.around = {}, {}, [""]
 
@@ -81,7 +82,7 @@ def files_of(tests: Iterable[str]) -> list[str]:
 
 def _cache_file(file: str, folder: Path) -> Path:
     """Where the reach of a file's tests is kept, for this code and this file."""
-    code = [path.read_bytes() for path in sorted(Path("recalib").rglob("*.py"))]
+    code = [path.read_bytes() for name in CODE for path in sorted(Path(name).rglob("*.py"))]
     digest = hashlib.sha256(b"".join([*code, Path(file).read_bytes()])).hexdigest()[:12]
     return folder / "reach" / f"{file.replace('/', '.')}.{digest}.json"
 

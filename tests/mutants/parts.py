@@ -10,12 +10,19 @@ class Part(NamedTuple):
     Attributes:
         modules: files and folders.
         tests: the nearest ones: files and folders.
+        others: files and folders below `modules` that belong to another part.
     """
 
     modules: tuple[str, ...]
     tests: tuple[str, ...]
+    others: tuple[str, ...] = ()
 
 
+# what moves an arm, or says where it should go
+MOVING = (
+    "recalib/station",
+    *(f"recalib/laboratory/{name}" for name in ("live", "correction.py", "reaching.py")),
+)
 EXPERIMENTS = "tests/replication/training", "tests/test_experiment.py"
 PARTS = {
     "experiments": Part(("replication/training", "recalib/loop/training.py"), EXPERIMENTS),
@@ -34,10 +41,10 @@ PARTS = {
         ("recalib/identification", "recalib/numerics"),
         ("tests/identification", "tests/test_regression.py"),
     ),
+    "moving": Part(MOVING, ("tests/station", "tests/laboratory")),
     "laboratory": Part(
-        ("recalib/laboratory",), ("tests/laboratory", "tests/vision", "tests/station")
+        ("recalib/laboratory",), ("tests/laboratory", "tests/vision", "tests/station"), MOVING
     ),
-    "station": Part(("recalib/station",), ("tests/station",)),
     "vision": Part(("recalib/vision",), ("tests/vision",)),
     "recording": Part(("replication/recording",), ("tests/replication/recording",)),
     "nominal": Part(
@@ -65,7 +72,15 @@ TOO_LONG = (  # tests that take minutes: no mutant meets them
 
 def modules(part: str) -> list[Path]:
     """Those of a part, here, that compute something."""
-    paths = []
-    for path in map(Path, PARTS[part].modules):
-        paths += [path] if path.is_file() else sorted(path.rglob("*.py"))
+    within, _, others = PARTS[part]
+    paths = [path for path in _files(within) if path not in _files(others)]
     return [path for path in paths if "def " in path.read_text("utf-8")]
+
+
+def _files(names: tuple[str, ...]) -> list[Path]:
+    """The files of Python among these files, and in these folders."""
+    return [
+        path
+        for name in map(Path, names)
+        for path in ([name] if name.is_file() else sorted(name.rglob("*.py")))
+    ]
