@@ -161,6 +161,29 @@ def test_a_lens_of_another_camera_is_named_before_the_poses(in_hand, tmp_path):
         calibrate_poses(read_poses(path, "ros"), shown, in_hand, None, print)
 
 
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_a_summary_says_what_an_inexact_lens_costs(in_hand, tmp_path):
+    cell = HandEyeCell(3, in_hand, position=0.0, rotation=0.0)
+    flange = cell.flange(POSES)
+    (path := tmp_path / "poses.txt").write_text(written(flange))
+    shown = shown_by(cell, cell.views(flange))
+
+    def found(longer: float) -> tuple[np.ndarray, str]:
+        lens = replace(cell.lens, matrix=cell.lens.matrix * [[longer], [longer], [1]])
+        pictures = [
+            replace(picture, pose=board_pose(cell.board, lens, picture.corners))
+            for picture in shown.pictures
+        ]
+        own = replace(shown, given=lens, pictures=pictures)
+        files, _ = calibrate_poses(read_poses(path, "ros"), own, in_hand, None, print)
+        camera = tomllib.loads(files["hand_eye.toml"].decode())["camera"]
+        return np.array(camera["matrix"]), files["summary.txt"].decode()
+
+    camera, summary = found(1.0)
+    stated = float(re.search("moves the camera by another ([0-9.]+) mm", summary)[1]) / 1e3
+    assert off(camera, found(1.001)[0])[0] == pytest.approx(stated, rel=0.3)
+
+
 def test_an_exact_arm_leaves_the_noise_of_the_corners():
     cell = HandEyeCell(3, True, position=0.0, rotation=0.0)
     found = calibrate_hand_eye(cell.sights(POSES))

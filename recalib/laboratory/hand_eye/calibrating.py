@@ -156,6 +156,7 @@ def _files(
         "rotation": _rms(np.linalg.norm(residuals[fitting, 3:], axis=1)),
         "noise": alone,
         "robot": np.sqrt(max(0.0, total**2 - alone**2)),  # by the arm's own errors
+        "distance": np.median(np.linalg.norm(sights.board[:, :3, 3], axis=1)),
         "outliers": [names[row] for row in found.outliers],
     }
     rows = []
