@@ -7,6 +7,7 @@ that, but nothing of the project.
 import importlib
 import os
 import resource
+import signal
 import sys
 import traceback
 from collections.abc import Callable, Mapping
@@ -69,6 +70,7 @@ def judge(
             if np.isfinite(seconds):
                 most = int(seconds + PATIENCE)
                 resource.setrlimit(resource.RLIMIT_CPU, (most, most))
+                signal.alarm(5 * most)  # one that waits takes no processor time
             _run_tests(folder, tests, log, keep)
         except BaseException:
             traceback.print_exc()
