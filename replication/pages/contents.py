@@ -1,24 +1,27 @@
 """What the pages of a study show: results as objects, from which templates choose."""
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
-from replication.campaign.variants import variants
+from replication.campaign.variants import DOUBLE, variants
 from replication.config.shipped import root_of
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.judgement.claims import claims
 from replication.judgement.claims.claim import Claim, OfSetups, Statement, TooFewSetups
-from replication.judgement.contrasts import Remaining
+from replication.judgement.contrasts import KEYS, Crossing, Remaining
 from replication.judgement.deviations import Deviations
 from replication.judgement.evidence import Evidence, NotMeasured
 from replication.judgement.findings import Finding, Number
+from replication.judgement.hierarchy import Estimate
 from replication.judgement.verdicts import Verdict
 from replication.pages.choices import Choice, alternatives, factor, read_choices
 from replication.pages.formats import estimate, interval, percent, short
@@ -30,6 +33,9 @@ from replication.training.measured import ERRORS, KINDS, UNITS
 
 NOT_MEASURED = "not measured"
 SYSTEMS = {IMPROVED: "improved system"}
+# A mean that is not shown: every setup but one has only a lower bound, far below the reference
+# study's number, so the grid of the likelihood, not the data, ends its interval.
+UNKNOWN = "with half as many cells"
 
 
 @dataclass(frozen=True)
@@ -62,6 +68,12 @@ class Judged:
     def number(self) -> Number | None:
         """The one that decides."""
         return self.finding.estimates[0] if self.finding else None
+
+    @property
+    def others(self) -> list[Number]:
+        """Those that decide nothing."""
+        numbers = self.finding.estimates[1:] if self.finding else ()
+        return [number for number in numbers if number.name != UNKNOWN]
 
     @property
     def value(self) -> str:
@@ -152,6 +164,55 @@ class Contents:
         except NotMeasured:
             return 0
         return int(measured.map(names.issubset).sum())
+
+    @cached_property
+    def replicates(self) -> int:
+        """Measurements of a variant for one number of iterations: setups, some of them twice."""
+        return self.evidence.outcomes().groupby(KEYS).ngroups
+
+    @cached_property
+    def unconverged(self) -> float:
+        """The share of tuned variants whose two searches have not converged."""
+        outcomes = self.evidence.outcomes()
+        rough = [name for name, variant in variants(self.study).items() if variant.rough]
+        return float(1 - outcomes.loc[~outcomes["variant"].isin(rough), "settled"].mean())
+
+    @cached_property
+    def reference_factors(self) -> tuple[float, float]:
+        """How many times as many iterations Ritter's map needs in the reference study.
+
+        From all of its lengths, and from those alone that every setup has.
+        """
+        study, outcomes = self.study, self.evidence.outcomes().query("setup == 0")
+        crossing = Crossing(DOUBLE, Remaining(IMPROVED, study.experiments.iterations))
+        everywhere = variants(study)[DOUBLE]
+        lengths = *everywhere.lengths, *everywhere.until_reached
+        fewer = outcomes[outcomes["iterations"].isin(lengths)]
+        every, few = (
+            float(np.exp(crossing.values(its).table.to_numpy().mean())) for its in (outcomes, fewer)
+        )
+        return every, few
+
+    def counts(self, claim: Judged) -> dict[str, int]:
+        """In how many setups each effect was measured, of a claim that setups decide."""
+        statement, numbers = self._numbers(claim)
+        effect = statement.comparison.of_interval
+        found = Counter(str(effect(Estimate(*[number] * 3))) for number in numbers)
+        shares = claim.finding.spread.shares if claim.finding and claim.finding.spread else {}
+        return {verdict: found[verdict] for verdict in shares}
+
+    def levels(self, claim: Judged) -> dict[str, float]:
+        """The mean at each level of the choice that moves a number most."""
+        assert claim.finding and claim.finding.spread and claim.finding.spread.factor
+        levels = self.evidence.levels()[claim.finding.spread.factor]
+        means = self._numbers(claim)[1].groupby(levels).mean()
+        return {str(level): float(np.exp(mean)) for level, mean in means.items()}
+
+    def _numbers(self, claim: Judged) -> tuple[OfSetups, pd.Series]:
+        """The logarithm of a claim's number in each setup."""
+        assert isinstance(claim.statement, OfSetups)
+        values = claim.statement.values(self.evidence)
+        return claim.statement, pd.Series(values.model().numbers, values.table.index)
 
     @cached_property
     def own(self) -> dict[str, Any]:

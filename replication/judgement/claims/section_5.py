@@ -142,7 +142,7 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             "The error with both increments over that without them is larger with encoder shifts"
             " three times as large.",
             "If the size of the change did not matter, both ratios would be the same.",
-            name="advantage of increments after a drastic change / after the paper's",
+            name="error ratio of increments after a drastic change / after the paper's",
             system=SYSTEM,
             estimand=Difference(
                 Contrast(remaining("improved_drastic"), remaining("improved_values_drastic")), both

@@ -86,6 +86,26 @@ def test_shares_of_an_error_are_in_percent_and_ratios_are_not(complete):
     assert "%" in slow.value and "%" not in slow.text(start)
 
 
+def test_setups_are_counted_beside_their_fitted_shares(complete):
+    claim = complete.claims["theta-increments"]
+    counts = complete.counts(claim)
+    assert list(counts) == list(claim.finding.spread.shares)
+    assert counts == {"supported": ALL, "no effect": 0, "contradicted": 0}
+
+
+def test_a_mean_of_bounds_is_not_shown(complete):
+    claim = complete.claims["speed-up"]
+    hidden = [number.name for number in claim.finding.estimates[1:] if number not in claim.others]
+    assert hidden == ["with half as many cells"]
+    assert f"- {hidden[0]}" not in render("findings.md", complete)
+
+
+def test_fewer_lengths_give_the_reference_study_another_factor(complete):
+    every, fewer = complete.reference_factors
+    assert every == pytest.approx(70, rel=0.1)  # the synthetic map needs 14,000 iterations
+    assert fewer != every
+
+
 def test_an_incomplete_campaign_says_how_many_setups_were_measured(partial):
     assert f"**{SOME} of {ALL} registered setups" in render("findings.md", partial)
     assert "Missing: `mapping/solutions.parquet`." in render("findings.md", partial)
