@@ -20,28 +20,30 @@ from replication.training.trials import Trials
 ITERATIONS = 10_000
 
 
-def halfway(study: Study, design: Path, outcomes: Path, setup: int) -> pd.DataFrame:
+def halfway(
+    study: Study, design: Path, outcomes: Path, setup: int, replicate: int
+) -> pd.DataFrame:
     """The row of Ritter's map after `ITERATIONS`, tuned near its settings for 5,000 iterations."""
     plan, variant = study.search, variants(study)[DOUBLE]
-    replicate = Replicate(study, read_design(design)[setup], 0)
+    measured = Replicate(study, read_design(design)[setup], replicate)
 
     def trials(runs: int, stream: Stream, **words: int) -> Trials:
-        return replicate.trials(variant, ITERATIONS, runs, stream, **words)
+        return measured.trials(variant, ITERATIONS, runs, stream, **words)
 
     numbers = range(1, plan.searches + 1)
     tuning = Tuning(
         [trials(plan.long_runs, Stream.SEARCH, number=number) for number in numbers],
         trials(plan.fresh, Stream.SEARCH, number=0),
-        plan,
+        plan.model_copy(update={"seed": plan.seed + 1000 * replicate}),
     )
-    own = pd.read_csv(outcomes).query("setup == @setup and replicate == 0 and variant == @DOUBLE")
-    shorter = rows_of(own)[study.campaign.rungs[0]]
+    rows = pd.read_csv(outcomes).query("setup == @setup and replicate == @replicate")
+    shorter = rows_of(rows[rows["variant"] == DOUBLE])[study.campaign.rungs[0]]
     start = np.array([shorter[name] for name in tuning.fresh.space.columns])
     found = tuning.search(starts=np.tile(start, (plan.searches, 1)))
     shares = trials(study.campaign.runs, Stream.SETUP).shares(found.best[None])[0]
     return pd.DataFrame(
         [
-            {"setup": setup, "replicate": 0, "variant": DOUBLE, "iterations": ITERATIONS}
+            {"setup": setup, "replicate": replicate, "variant": DOUBLE, "iterations": ITERATIONS}
             | dict(zip(SHARES, map(short, shares), strict=True))
             | {"trials": found.trials, "settled": int(found.settled)}
         ]

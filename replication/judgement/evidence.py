@@ -85,6 +85,10 @@ class Evidence:
         """The campaign's table. Raises NotMeasured."""
         return self.table(f"{CAMPAIGN}/outcomes.csv")
 
+    def halfway(self) -> pd.DataFrame:
+        """More rows of Ritter's map, which were measured after the campaign. Raises NotMeasured."""
+        return self.table(f"{CAMPAIGN}/halfway.csv")
+
     def levels(self) -> pd.DataFrame:
         """The levels of each setup's factors, by its number."""
         design = self.table(f"{CAMPAIGN}/design.csv").set_index("setup")

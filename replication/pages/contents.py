@@ -20,7 +20,7 @@ from replication.judgement.claims.claim import Claim, OfSetups, Statement, TooFe
 from replication.judgement.contrasts import KEYS, Crossing, Remaining
 from replication.judgement.deviations import Deviations
 from replication.judgement.evidence import Evidence, NotMeasured
-from replication.judgement.findings import Finding, Number
+from replication.judgement.findings import Finding, Number, number
 from replication.judgement.hierarchy import Estimate
 from replication.judgement.verdicts import Verdict
 from replication.pages.choices import Choice, alternatives, factor, read_choices
@@ -33,9 +33,6 @@ from replication.training.measured import ERRORS, KINDS, UNITS
 
 NOT_MEASURED = "not measured"
 SYSTEMS = {IMPROVED: "improved system"}
-# A mean that is not shown: every setup but one has only a lower bound, far below the reference
-# study's number, so the grid of the likelihood, not the data, ends its interval.
-UNKNOWN = "with half as many cells"
 
 
 @dataclass(frozen=True)
@@ -68,12 +65,6 @@ class Judged:
     def number(self) -> Number | None:
         """The one that decides."""
         return self.finding.estimates[0] if self.finding else None
-
-    @property
-    def others(self) -> list[Number]:
-        """Those that decide nothing."""
-        numbers = self.finding.estimates[1:] if self.finding else ()
-        return [number for number in numbers if number.name != UNKNOWN]
 
     @property
     def value(self) -> str:
@@ -178,20 +169,12 @@ class Contents:
         return float(1 - outcomes.loc[~outcomes["variant"].isin(rough), "settled"].mean())
 
     @cached_property
-    def reference_factors(self) -> tuple[float, float]:
-        """How many times as many iterations Ritter's map needs in the reference study.
-
-        From all of its lengths, and from those alone that every setup has.
-        """
-        study, outcomes = self.study, self.evidence.outcomes().query("setup == 0")
-        crossing = Crossing(DOUBLE, Remaining(IMPROVED, study.experiments.iterations))
-        everywhere = variants(study)[DOUBLE]
-        lengths = *everywhere.lengths, *everywhere.until_reached
-        fewer = outcomes[outcomes["iterations"].isin(lengths)]
-        every, few = (
-            float(np.exp(crossing.values(its).table.to_numpy().mean())) for its in (outcomes, fewer)
-        )
-        return every, few
+    def halfway(self) -> Number:
+        """Of how many times as many iterations Ritter's map needs, with `halfway` in each setup."""
+        goal = Remaining(IMPROVED, self.study.experiments.iterations)
+        outcomes = pd.concat([self.evidence.outcomes(), self.evidence.halfway()])
+        found = Crossing(DOUBLE, goal).values(outcomes).model()
+        return number("", "", found.mean, found.another)
 
     def counts(self, claim: Judged) -> dict[str, int]:
         """In how many setups each effect was measured, of a claim that setups decide."""

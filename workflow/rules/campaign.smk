@@ -2,9 +2,10 @@
 
 from replication.campaign.setups import planned
 from replication.campaign.variants import lengths, needed, variants
-from replication.config.shipped import DESIGN
+from replication.config.shipped import DESIGN, OUTCOMES
 
 MEASURED = f"{RESULTS}/campaign/outcomes/{{setup}}/{{replicate}}.csv"
+HALFWAY = f"{RESULTS}/campaign/halfway/{{setup}}.{{replicate}}.csv"
 PIECE = f"{RESULTS}/campaign/pieces/{{setup}}/{{replicate}}/{{variant}}.csv"
 
 
@@ -101,3 +102,45 @@ rule campaign:
         [MEASURED.format(setup=setup, replicate=number) for setup, number in planned(STUDY)],
     message:
         "What was missing of the campaign: {input}; `make campaign` ships it"
+
+
+rule halfway_in_setup:
+    input:
+        design=DESIGN,
+        outcomes=OUTCOMES,
+    output:
+        temp(HALFWAY),
+    log:
+        f"{RESULTS}/logs/halfway/{{setup}}.{{replicate}}.log",
+    resources:
+        **room(mem_mb=2000, runtime=60),
+    params:
+        **calls("campaign.halfway:halfway"),
+        setup=lambda w: int(w.setup),
+        replicate=lambda w: int(w.replicate),
+    message:
+        "Tune Ritter's map for 10,000 iterations in setup {wildcards.setup}"
+    script:
+        "../scripts/call.py"
+
+
+# Setup 0 has been tuned for so many iterations in the campaign.
+rule halfway:
+    input:
+        tables=[
+            HALFWAY.format(setup=setup, replicate=number)
+            for setup in range(1, STUDY.campaign.setups)
+            for number in range(STUDY.campaign.replicates)
+            if not number or setup < STUDY.campaign.replicated
+        ],
+    output:
+        f"{RESULTS}/campaign/halfway.csv",
+    log:
+        f"{RESULTS}/logs/halfway.log",
+    localrule: True
+    params:
+        **calls("campaign.measuring:put_together"),
+    message:
+        "Put Ritter's map after 10,000 iterations together"
+    script:
+        "../scripts/call.py"

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 
 from replication.campaign.variants import DOUBLE
-from replication.config.switches import IMPROVED, RITTER
+from replication.config.switches import IMPROVED
 from replication.judgement.claims.claim import (
     Measured,
     OfSetups,
@@ -78,7 +78,6 @@ def speed_up(iterations: int) -> Callable[[Statement, Evidence], Finding]:
         ("iterations of Ritter's map / of the improved system", "equally many cells"): Crossing(
             DOUBLE, goal
         ),
-        ("with half as many cells", ""): Crossing(RITTER, goal),
         ("with a rough search for the improved system", "as in the paper"): Crossing(
             DOUBLE, Remaining("improved_rough", iterations)
         ),

@@ -8,11 +8,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from replication.campaign import DOUBLE
 from replication.config import Study, root_of
 from replication.judgement import Evidence, summarise, written
 from replication.judgement.claims import judge
 from replication.running import write
-from replication.training import ERRORS, Place, places
+from replication.training import ERRORS, KINDS, Place, places
 from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import outcomes
 
@@ -55,7 +56,12 @@ def project(tmp_path_factory) -> Callable[[Study, int], Path]:
         write(root / "summary.csv", summarise(study, histories))
         if setups:
             table = outcomes(changed(study, campaign={"setups": setups}))
-            write(folder / "workflow" / "campaign" / "outcomes.csv", table)
+            campaign = folder / "workflow" / "campaign"
+            write(campaign / "outcomes.csv", table)
+            last = table.query("setup > 0 and variant == @DOUBLE and iterations == 20_000")
+            shares = [f"{kind}_share" for kind in KINDS]
+            halfway = last.assign(iterations=10_000, **(2 * last[shares]))
+            write(campaign / "halfway.csv", halfway)
         write(root / "claims.json", written(judge(Evidence(study, folder))))
         return folder
 

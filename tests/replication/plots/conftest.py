@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.campaign import DOUBLE, TWO_MAPS
+from replication.campaign import DOUBLE, TWO_MAPS, lengths
 from replication.campaign.variants import variants
 from replication.config import CAMPAIGN, DESIGN, IMPROVED, RESULTS, RITTER, Study, read_study
 from replication.judgement import Evidence, written
@@ -40,10 +40,9 @@ def outcomes(study: Study) -> pd.DataFrame:
     for setup in range(study.campaign.setups):
         for replicate in range(2 if setup < 3 else 1):
             for name, variant in variants(study).items():
-                lengths = (*variant.lengths, *variant.until_reached, *variant.at_home)
                 needed = NEEDED.get(name, 200 * WORSE.get(name, 1.0))
                 own = np.exp((setup > 0) * 0.1 * random.normal())
-                for iterations in sorted({*lengths}):
+                for iterations in (*lengths(variant, setup), *variant.until_reached):
                     noise = np.exp(0.01 * random.normal(size=2))
                     shares = LEFT * own * needed / iterations * noise
                     cells = {"setup": setup, "replicate": replicate, "variant": name, "settled": 1}
@@ -72,7 +71,7 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
     """Every table with its path."""
     random = np.random.default_rng(1)
     for place, learners in places(study).items():
-        for learner, lengths in learners.items():
+        for learner, every in learners.items():
             histories = [
                 history(
                     study.training.during(length)
@@ -81,7 +80,7 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
                     study.training.seeds,
                     learner,
                 )
-                for length in lengths
+                for length in every
             ]
             yield place.history_file(RESULTS, learner), pd.concat(histories)
     yield f"{CAMPAIGN}/outcomes.csv", outcomes(study)

@@ -104,7 +104,7 @@ def test_contrasts_show_every_setup_and_what_was_found(figures, evidence, small)
     assert {row.claim.id for row in shown} == {*LABELS}
     words = [text for axes in figures[Figure.CONTRASTS].axes for text in right_of(axes)]
     theta = found["theta-increments"]
-    assert f"{theta.estimates[0].value:.2f} {theta.verdict}" in words
+    assert f"{theta.estimates[0].value:.3g} {theta.verdict}" in words
     assert theta.estimates[0].value == pytest.approx(1 / 2.5, rel=0.1), "as planted"
     dots = np.concatenate(
         [
