@@ -10,7 +10,7 @@ from recalib.errors import InvalidQuantity, UnknownName
 from recalib.files.quantities import LENGTH
 from recalib.laboratory.tables.columns import MEASURED
 
-FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
+FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is mounted
 DONE, REFUSED, NO_BETTER = 0, 1, 3
 Kind = Callable[[str], object]
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no improvement."
@@ -20,7 +20,7 @@ CALIBRATION = "folder of calibrate, or its correction.npz"
 
 
 class Parser(argparse.ArgumentParser):
-    """Refuses as commands do: in one sentence, with the same exit code."""
+    """Reports errors as the commands do: in one sentence, with the same exit code."""
 
     def error(self, message: str) -> NoReturn:
         self.exit(REFUSED, f"recalib: {message}; try: {self.prog} --help\n")
@@ -28,13 +28,13 @@ class Parser(argparse.ArgumentParser):
     def add(
         self, name: str, text: str, kind: Kind = str, default: object = None, **more: Any
     ) -> None:
-        """An argument, or an option with its default."""
+        """Add an argument, or an option whose help shows its default."""
         shown = "" if default is None else f" (default: {default})"
         self.add_argument(name, type=kind, default=default, help=text + shown, **more)
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """The options on a command line; leaves with an exit code if there is a mistake."""
+    """Parse a command line; exit with a code if it has a mistake."""
     parser = Parser(
         prog="recalib", description="Recalibrate a robot arm from measurements.", epilog=EPILOGUE
     )
@@ -49,7 +49,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
             epilog=f"{epilog}{EPILOGUE}",
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        folder = not Path(out).suffix  # of its default
+        folder = not Path(out).suffix  # a default without a suffix names a folder
         own.set_defaults(folder=folder)
         own.add("--out", f"new {'folder' if folder else 'file'} to write", Path, out)
         return own
@@ -153,7 +153,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 def _columns() -> str:
-    """The columns of a table of measurements, for `recalib calibrate --help`."""
+    """Text about the columns of a table of measurements, for `recalib calibrate --help`."""
     joint = "JOINT [deg]", "each joint by its name in the URDF, as the controller reports it"
     others = ((", ".join(columns.written), columns.meaning) for columns in MEASURED)
     lines = (f"  {headings:<48}{meaning}" for headings, meaning in (joint, *others))
