@@ -157,7 +157,7 @@ def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
 def _newton(
     calibration: Calibration, goals: Goals, start: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Newton steps of least norm, separately for each goal: redundant joints stay near the start."""
+    """Newton steps of least norm, for each goal by itself: redundant joints stay near the start."""
     coupling = calibration.model.nominal.coupling
 
     def kinematics(rows: np.ndarray, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

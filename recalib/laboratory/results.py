@@ -144,7 +144,7 @@ class Results:
 
     @property
     def directions(self) -> list[tuple[Unidentifiable, str]]:
-        """Geometric parameters that are not identifiable, each with the names to choose from."""
+        """Unidentifiable geometric parameters, each with its name and those of its partners."""
         names = [parameter.name for parameter in self.parameters]
         return [
             (one, listed((names[number] for number in (one.parameter, *one.partners)), "or"))
@@ -154,7 +154,7 @@ class Results:
     @property
     def identified(self) -> list[dict[str, Any]]:
         """Geometric parameters: name, unit, value, deviation, and `decided_by` data or prior."""
-        # a small deviation is no sign of data: priors of useless parameters become narrow, too
+        # a small deviation proves nothing: the prior of a useless parameter becomes narrow, too
         model = self.geometry.model
         by_prior = model.deviations <= HELD
         by_prior[[one.parameter for one in self.unidentifiable]] = True
