@@ -149,7 +149,7 @@ def mistake_of_outliers(geometry: Calibration, observations: Observations) -> st
 def _gaps(
     poses: np.ndarray, nominal: np.ndarray, base: np.ndarray, target: np.ndarray
 ) -> np.ndarray:
-    """Distances (n,) [m] of nominal positions or poses from the target, given both frames (4, 4)."""
+    """Distances (n,) [m] of nominal positions or poses from the target, by both frames (4, 4)."""
     residuals = displacements(base @ poses @ target, nominal)
     residuals[:, 3:] *= LEVER
     return np.linalg.norm(residuals, axis=1)

@@ -138,7 +138,7 @@ def joint_headings(arm: Arm, angle: str = "deg", length: str = "mm") -> list[str
 def postures_table(arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool = False) -> bytes:
     """The CSV text of joint coordinates (n, columns) and poses (n, 4, 4), which we can read.
 
-    Fake poses are commands. `read_desired` refuses their columns, so that nobody corrects twice.
+    Fake poses are commands. `read_desired` refuses their columns: they are corrected already.
     """
     scales = [1e3 if slides else 180 / np.pi for slides in arm.coupling.slides]
     texts = [[f"{number:.9f}" for number in row] for row in joints * scales]
