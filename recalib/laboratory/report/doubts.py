@@ -17,7 +17,7 @@ from recalib.nominal.kinematics import Arm
 
 RESIZED = 0.015  # of a size: all links together are seldom longer by more
 TOGETHER = 0.3  # of the residuals: less remains if one factor for all links explains them
-OUTVOTED = 0.5  # of the rows of a sight: if more are outliers, camera or board moved
+OUTVOTED = 0.5  # of the rows of a sight: if more are outliers, the other sights contradict it
 WORN = 3.0  # prior deviations: wear explains no larger error
 ENDS, NAMED = ("of base", "of tool", "of target"), 3  # names listed first, and how many at most
 CONTRADICTED = 2.0  # times the error at random: larger errors contradict it
@@ -78,7 +78,7 @@ def _outvoted(result: Results) -> Iterator[tuple[str, int, int]]:
 
 
 def _worn(result: Results) -> tuple[Parameter, float] | None:
-    """The parameter of an offset or link that exceeds its prior deviation most; None if within."""
+    """The joint or link error with the largest ratio to its prior deviation, if wear is not why."""
     model = result.geometry.model
     ratios = result.geometry.estimate.parameters / model.deviations
     ratios = np.where(model.free | (model.deviations <= HELD), 0.0, np.abs(ratios))

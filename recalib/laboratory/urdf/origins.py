@@ -92,7 +92,7 @@ def offset_poses(calibration: Calibration) -> np.ndarray:
 def angles_of(pose: np.ndarray) -> np.ndarray:
     """Roll, pitch and yaw (3,) [rad] of a pose (4, 4), exact even at a pitch of 90 degrees.
 
-    Each angle is computed after the rotations by the previous angles are undone.
+    Pitch and yaw are computed after the roll is undone.
     """
     turn = pose[:3, :3]
     roll = np.arctan2(turn[2, 1], turn[2, 2])
