@@ -115,10 +115,7 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
 
 
 def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool) -> list[Picture]:
-    """Refuse pictures that are repeated, blurred, or of a size other than the expected one.
-
-    With `by_lens`, the lens calibration determines the expected size.
-    """
+    """Refuse pictures that are repeated, blurred, or not of this size (`by_lens`: of the lens)."""
     expected = "expected, as by the lens" if by_lens else "expected"
     first: dict[str, str] = {}
     done = []

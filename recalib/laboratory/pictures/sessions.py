@@ -131,7 +131,7 @@ def calibrate_pictures(
 def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataSet:
     """The data set of an arm from folders.
 
-    Raises InvalidFile: a folder that observe did not write so, or folders that contradict.
+    Raises InvalidFile: a folder that is not as observe wrote it, or contradictory folders.
     """
     sessions = [Session.read(folder, arm) for folder in folders]
     for before, session in combinations(sessions, 2):
