@@ -106,7 +106,7 @@ def _written(out: Path, files: dict[str, bytes], good: bool) -> int:
 def _observed(options: Options) -> Path:
     """Observe pictures with the joints of a table; the folder, which is next to the output."""
     if options.pictures is None:
-        raise InvalidSetting("--pictures", None, "a folder of pictures; without a URDF, --targets")
+        raise InvalidSetting("--pictures", None, "a folder of pictures; or --targets, and no URDF")
     folder, table = Path(f"{options.out}_observed"), read_table(options.poses)
     rotations = convention_of(options.convention).headings if options.convention else ()
     cells = {name: cells for name, cells in table.cells.items() if name.lower() not in rotations}
@@ -164,8 +164,8 @@ def correct(options: Options) -> int:
     for line in render("correct.txt.j2", **values).splitlines():
         print(f"recalib: warning: {line}", file=sys.stderr)
     made = counted(len(commands.joints), "command")
-    print(f"{made} in {options.out}: joint coordinates, and the poses that")
-    print(f"the nominal kinematics give them, of {arm.tool} in {arm.base}")
+    print(f"{made} in {options.out}: joint coordinates, and at them")
+    print(f"the poses of {arm.tool} in {arm.base} by the nominal kinematics")
     return DONE
 
 
@@ -201,8 +201,8 @@ def next_poses(options: Options) -> int:
     poses, deviations = propose_poses(options.calibration, options.count, box, cone)
     write_new(options.out, table_text(pose_rows(poses)), ".csv")
     before, after = 1e3 * deviations[[0, -1]]
-    print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
-    print(f"They would reduce the camera's deviation from {before:.3g} mm to {after:.3g} mm.")
+    print(f"{counted(len(poses), 'flange pose')} in {options.out}, the most informative first.")
+    print(f"They would reduce the camera's uncertainty from {before:.3g} mm to {after:.3g} mm.")
     return DONE
 
 
@@ -240,9 +240,7 @@ def board(options: Options) -> int:
     files = {"board.pdf": pdf, "board.svg": svg, "board.toml": sheet.described().encode()}
     write_new(options.out, files)
     print(f"{options.out}: {', '.join(files)}. Print at true size, on {paper[0]:g} x")
-    print(
-        f"{paper[1]:g} mm, glue it to something flat, and measure the bar: it is {bar:g} mm long."
-    )
+    print(f"{paper[1]:g} mm, glue it to something flat, and check that the bar is {bar:g} mm long.")
     return DONE
 
 

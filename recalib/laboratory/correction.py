@@ -159,7 +159,7 @@ class Correction:
     def archive(self) -> bytes:
         """The content of the file. Raises InvalidSetting without a URDF."""
         if not self.urdf:
-            valid = "the file of the arm: only what was calibrated with it can be saved"
+            valid = "the arm's file; try: calibrate_arm, whose result can be saved"
             raise InvalidSetting("urdf", None, valid)
         form, version = FORMAT
         arm = {"tool": self.arm.tool, "base": self.arm.base, "targets": self.targets}
@@ -201,7 +201,7 @@ class Correction:
             raise UnknownName("frame", str(frame), FRAMES)
         if frame == BASE:
             if target is not None:
-                raise InvalidSetting("frame", frame, "instrument, in which a target's poses are")
+                raise InvalidSetting("frame", frame, "instrument, the frame of a target's poses")
             if not self.base_known:
                 raise InvalidSetting(
                     "frame",
@@ -211,7 +211,7 @@ class Correction:
                 )
             return goals
         if len(frames.sockets):
-            raise InvalidSetting("frame", frame, "base: a ball in sockets had no instrument")
+            raise InvalidSetting("frame", frame, "base: balls in sockets need no instrument")
         if goals.poses.ndim == 3 and frames.targets_unknown and kinds == 1:
             valid = "positions alone: measured positions do not determine a target's rotation"
             raise InvalidSetting("rotations of a target", "given", valid)

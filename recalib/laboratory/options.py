@@ -75,17 +75,17 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     for name, kind, default, text in (
         ("--poses", _path, None, "table of the flange's poses in the base"),
         ("--pictures", _path, None, "folder of the board's pictures, one for each pose"),
-        ("--targets", _path, None, "or: table of the target's poses in the camera"),
+        ("--targets", _path, None, "instead: table of the target's poses in the camera"),
         ("--board", _path, "board/board.toml", "description of the board (default: %(default)s)"),
         ("--lens", _path, None, "lens calibration (default: estimated)"),
-        ("--convention", str, None, f"of rotations: {WAYS}, or an order such as ZYZ or xyz"),
-        ("--target-convention", str, None, "likewise, of the target's poses"),
-        ("--height", str, None, "of the board, if the arm turns about one axis: '31 cm +- 1 mm'"),
+        ("--convention", str, None, f"notation of rotations: {WAYS}, or an order: ZYZ, xyz"),
+        ("--target-convention", str, None, "notation of the target's rotations"),
+        ("--height", str, None, "board height, if the arm turns about one axis: '31 cm +- 1 mm'"),
     ):
         group.add_argument(name, type=kind, default=default, help=text)
     group.add_argument("--camera", choices=CAMERAS, default=FIXED, help=where)
-    group.add_argument("--unit", choices=LENGTH.units, help="of positions without a unit")
-    text = "this table has the inverse poses: of the base in the flange, of the camera in it"
+    group.add_argument("--unit", choices=LENGTH.units, help="unit of positions without one")
+    text = "this table has the inverse poses: base in flange, or camera in target"
     group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
 
     text = "move, measure and calibrate until the predicted error is small enough"
@@ -104,16 +104,16 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add("--lens", "lens calibration (YAML), with --board", _path)
     own.add_argument("--camera", choices=CAMERAS, help=where)
     own.add_argument("--yes", action="store_true", help="move without asking")
-    own.add("--table", "new, or begun by live", _path, "measurements.csv")
+    own.add("--table", "table of rows: new, or begun by live", _path, "measurements.csv")
     add_arm(own)
 
     own = add("correct", "compute commands that reach the desired poses", "commands.csv")
     own.add("calibration", CALIBRATION, _path)
     own.add("desired", "desired poses or joint coordinates (CSV)", _path)
     text = (
-        "frame of the poses: a target in the instrument's frame, as measured, or the tool link in"
-        " the base, if [instrument] was given (default: instrument; of joints alone, and of balls"
-        " in sockets: base)"
+        "frame of the poses: instrument (poses of a target, as measured), or base (poses of the"
+        " tool link; needs [instrument] in the description); default: instrument; for joints"
+        " alone, and for balls in sockets: base"
     )
     own.add("--frame", text, choices=("base", "instrument"))
 
@@ -124,11 +124,11 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         "candidates", "postures to choose from (CSV; default: drawn at random)", _path, nargs="?"
     )
     own.add("--count", "number of postures", _positive, 10)
-    text = "propose flange poses, by a folder of calibrate --poses"
+    text = "propose flange poses, from a folder of calibrate --poses"
     own.add_argument("--poses", action="store_true", help=text)
     text = "with --poses: ranges of the flange's position: '-40 cm to 40 cm' ..."
     own.add("--box", text, nargs=3, metavar=("X", "Y", "Z"))
-    own.add("--cone", "with --poses: of lines of sight about the board's normal", str, "45 deg")
+    own.add("--cone", "with --poses: largest angle of view from the board's normal", str, "45 deg")
 
     own = add("urdf", "write a URDF from Denavit-Hartenberg parameters", "arm.urdf")
     own.add("links", "table (CSV): joint, a, alpha, d, theta, kind", _path)

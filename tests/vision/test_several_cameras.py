@@ -185,8 +185,8 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
     [
         (Cell(SEED, True), ("eye", SHIFT), 1.0, 0.0, "the camera seems to have slipped on the too"),
         (Cell(SEED), ("sheet", TURN), None, 0.2, "the board seems to have slipped on the tool"),
-        (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "camera or base seem to have moved"),
-        (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "board or base seem to have moved"),
+        (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "the camera or the base seems to have moved"),
+        (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "the board or the base seems to have moved"),
     ],
 )
 def test_what_slips_in_a_session_is_named_in_the_first_lines(
@@ -217,14 +217,14 @@ def test_a_camera_on_the_hand_that_slips_beside_a_fixed_one_is_named(tmp_path):
     left = write_session(tmp_path / "left", Cell(SEED), "left", "tool")
     hand = write_session(tmp_path / "hand", on_the_hand(), "hand", "table", ("eye", TURN))
     text = verdict(calibrated(left, hand))
-    assert f"Careful: in {hand}, between rows 15 and 16 camera hand seems to have slipped" in text
+    assert f"Careful: in {hand}, between rows 15 and 16, camera hand seems to have slipped" in text
 
 
 def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
     moved = changed(1, sheet=Cell(SEED).sheet @ frame([0, 0, 0], [0.003, 0, 0]))
     folders = beside_left(tmp_path, moved)
     text = verdict(calibrated(*folders))
-    assert f"in {folders[1]}, before row 1 the board seems to have slipped on the tool by 3" in text
+    assert f"{folders[1]}, before row 1, the board seems to have slipped on the tool by 3" in text
     assert "try each folder by itself" in text
 
 

@@ -55,7 +55,7 @@ def check_motion(sights: Sights) -> None:
         axis = ", ".join(f"{number:.2f}" for number in axes[0] * np.sign(axes[0].sum()))
         raise Mistaken(
             f"all turns are about one axis, ({axis}) in the base, along which the places of camera"
-            f" and board are not determined; {TILT}; of an arm with four axes, --height"
+            f" and board are not determined; {TILT}; for an arm with four axes, --height"
         )
 
 
@@ -93,8 +93,8 @@ def _check_height(sights: Sights, remaining: float) -> None:
     best = _misfit(replace(sights, height=None))
     if best < EXPLAINED * remaining:
         raise Mistaken(
-            f"the poses do not fit the height ({1e3 * remaining:.3g} mm remain), but they do"
-            f" ({1e3 * best:.3g} mm) without --height, which they determine, too"
+            f"the poses do not fit the height ({1e3 * remaining:.3g} mm remain), but they fit"
+            f" ({1e3 * best:.3g} mm) without --height; they determine the height themselves"
         )
 
 
@@ -128,12 +128,12 @@ def _check_size(scale: float, deviation: float) -> None:
     for factor, words in UNITS.items():
         if abs(scale * factor - 1) < 0.1:
             raise Mistaken(
-                f"the flange's positions are likely {words}: by them, the board is {scale:.3g}"
+                f"the flange's positions are likely {words}: by these, the board is {scale:.3g}"
                 " times as large as described; try: --unit, or another unit in the heading"
             )
     raise Mistaken(
-        f"the board is {100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %)"
-        f" {'larger' if scale > 1 else 'smaller'} than described, by the flange's positions; try:"
+        f"according to the flange's positions, the board is {100 * abs(scale - 1):.1f} % (deviation"
+        f" {100 * deviation:.1g} %) {'larger' if scale > 1 else 'smaller'} than described; try:"
         " measure its square and the bar below it"
     )
 
@@ -144,10 +144,10 @@ def _check_readings(
     """Raise Mistaken if the poses fit much better when read in another way, or fit in no way."""
     side, option = ("fixed", "fixed") if sights.in_hand else ("on the hand", "hand")
     direction = f"the camera is {side} (--camera {option}), or"
-    direction += " the flange's poses are those of the base in it (--inverse flange)"
+    direction += " the flange's poses are those of the base in the flange (--inverse flange)"
     boards = [("", sights.board)]
     if targets is not None:
-        direction += ", or the target's are those of the camera in it (--inverse targets)"
+        direction += ", or the target's are those of the camera in the target (--inverse targets)"
         boards = [*_readings("target", "--target-convention", targets)]
     fits = []
     for theirs, board in boards:

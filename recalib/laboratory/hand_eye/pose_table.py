@@ -197,6 +197,6 @@ def _headed(text: str, path: Path, way: Convention | None) -> str:
             headings = ["time", *headings]
         if count != len(headings):
             valid = f"{len(headings)}, {', '.join(headings)}"
-            valid += "; has it decimal commas?" * (count == 2 * len(headings))
+            valid += "; does it have decimal commas?" * (count == 2 * len(headings))
             raise InvalidFile(path, f"it has {count} numbers in a row; expected: {valid}")
     return "\n".join(",".join(row) for row in (headings[:count], *rows))

@@ -75,7 +75,7 @@ class AllowedPostures:
         lower, upper = np.maximum(lower, limits[0]), np.minimum(upper, limits[1])
         reach = span * np.where(arm.slides, LEVER, 1.0)
         self._ranges = {
-            "within its limits without their outermost part": (lower, upper),
+            "within its limits, without the outermost part": (lower, upper),
             "within --span of the first posture": (home - reach, home + reach),
         }
         if problem := self._problem(home):
@@ -155,7 +155,7 @@ class AllowedPostures:
                 where = ", ".join(f"{1e3 * x:.0f} mm" for x in place)
                 return f"the tool at ({where})", "within --box"
         if self._clearance and (pair := self._clearance.touching(joints, MARGIN - slack)):
-            option = "--floor" if FLOOR in pair else "--no-self-collision"
+            option = "another --floor" if FLOOR in pair else "--no-self-collision"
             found = f"{pair[0]} nearer than {1e3 * MARGIN:.0f} mm to {pair[1]}"
-            return found, f"more room, or another {option} if this is wrong"
+            return found, f"more room, or {option} if this is wrong"
         return None

@@ -159,7 +159,7 @@ class Record:
         data = data_set(rows, self._description, self._arm)
         if len(data.targets) > 1:
             names = ", ".join(data.targets)
-            raise InvalidFile(self.path, f"it has the targets {names}; expected: one and the same")
+            raise InvalidFile(self.path, f"it has the targets {names}; expected: a single one")
         *before, last = rows.columns.get(PICTURES.name, np.array([""])).tolist()
         if last and last in before:
             reason = f"{last} is in an earlier row; expected: a new file for each picture"

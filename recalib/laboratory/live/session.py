@@ -126,14 +126,14 @@ def calibrate_live(
     Raises RecalibError: UnsuitableRobot, StationFailed, Interrupted, or rows that do not fit.
     """
     if len(arm.coupling.columns) < len(arm.joints):
-        followers = f"of {', '.join(arm.joints)} some follow others by <mimic>"
+        followers = f"some of {', '.join(arm.joints)} follow other joints by <mimic>"
         raise UnsuitableRobot(
             f"{followers}; expected: a motor for each joint; try: a table for recalib calibrate"
         )
     description = description or Description()
     record = Record(table, arm, description, pictures)
     if record.dropped:
-        on_progress(f"a row without its end was dropped: {record.dropped!r}")
+        on_progress(f"an incomplete row was dropped: {record.dropped!r}")
     station = None
     try:
         station = Guarded(opening, arm)

@@ -72,7 +72,7 @@ def observe(
         if quantity := next((kind for kind in (ANGLE, LENGTH) if unit in kind.units), None):
             table.numbers(name, quantity)
     if not Path(folder).is_dir():
-        raise InvalidFile(folder, "there is no such folder of pictures")
+        raise InvalidFile(folder, "there is no such folder")
     on_progress(f"the board in {len(names)} pictures")
     pictures = [
         _searched(Path(folder) / name, row, name, sheet) for row, name in enumerate(names, 1)

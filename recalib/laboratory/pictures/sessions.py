@@ -124,7 +124,7 @@ def calibrate_pictures(
     on_progress(file.origin)
     if len(folders) > 1 and (known.instrument is not None or known.target is not None):
         reason = "the description has an instrument or a target, which is for one camera"
-        raise InvalidFile(folders[1], f"{reason}; try: without")
+        raise InvalidFile(folders[1], f"{reason}; try: omit it")
     return identified(arm, read_folders([*map(Path, folders)], arm, known), file, on_progress)
 
 

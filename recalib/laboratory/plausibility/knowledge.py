@@ -102,7 +102,7 @@ def frames_of(arm: Arm, data: DataSet) -> Frames:
         off = median_error(frames, arm.forward(rows.joints), rows)
         if off > FARTHEST:
             raise Mistaken(
-                f"{name} is {1e3 * off:.0f} mm from its place by the other pictures; expected: one"
+                f"{name} is {1e3 * off:.0f} mm from its place in the other pictures; expected: one"
                 " place for each name; try: another name"
             )
     return data.known.stated_in(frames)
@@ -131,6 +131,6 @@ def _gap(given: np.ndarray, found: np.ndarray) -> str:
     angles = Rotation.from_matrix(found[:3, :3]).as_euler("xyz", degrees=True)
     turn = ", ".join(f'"{angle:.0f} deg"' for angle in angles)
     return (
-        f"is {shift:.0f} mm and {angle:.0f} deg from its estimate by the measurements; expected:"
+        f"is {shift:.0f} mm and {angle:.0f} deg away from what the measurements imply; expected:"
         f" about position = [{place}], roll_pitch_yaw = [{turn}]"
     )

@@ -122,7 +122,7 @@ def measurements_so_far(
     """
     rows = _read(table_of(content, path, description.columns), arm, MEASURED)
     if rows.measured is None:
-        raise InvalidFile(path, "no positions are measured in it; expected: x, y and z")
+        raise InvalidFile(path, "it has no measured positions; expected: x, y and z")
     _check_stuck(rows)
     return rows
 
@@ -159,7 +159,7 @@ def check_measured(rows: Measurements) -> None:
     """Raise InvalidFile unless an arm can be calibrated from the rows."""
     sockets = SOCKETS.name in rows.columns
     if rows.measured is None and not sockets:
-        raise InvalidFile(rows.path, "nothing was measured in it; expected: x, y, z or socket")
+        raise InvalidFile(rows.path, "it has no measured columns; expected: x, y, z or socket")
     if rows.measured is not None and sockets:
         raise InvalidFile(rows.path, "it has both positions and sockets; expected: one of them")
     _check_rows(rows)
@@ -174,12 +174,12 @@ def _check_rows(rows: Measurements) -> None:
             found = f"row {row} was measured before row {row - 1}; try: sort the rows by time"
             raise InvalidFile(rows.path, found)
         if len(times) > 1 and times[0] == times[-1]:
-            raise InvalidFile(rows.path, "column 'time' is the same in all rows; try: without it")
+            raise InvalidFile(rows.path, "column 'time' is the same in all rows; try: omit it")
     if len(rows) < FEWEST:
         found = f"it has {counted(len(rows), 'row')}; expected: at least {FEWEST}"
         raise InvalidFile(rows.path, found)
     if (np.ptp(rows.joints, axis=0) < STILL).all():
-        raise InvalidFile(rows.path, "no joint moves in it; expected: rows of different postures")
+        raise InvalidFile(rows.path, "no joint moves; expected: rows of different postures")
 
 
 def _check_stuck(rows: Measurements) -> None:
@@ -189,7 +189,7 @@ def _check_stuck(rows: Measurements) -> None:
     moved = (np.abs(np.diff(rows.joints, axis=0)) > MOVED).sum(axis=1) > 1
     equal = (np.diff(rows.measured.reshape(len(rows), -1), axis=0) == 0).all(axis=1)
     if len(stuck := np.flatnonzero(moved & equal)) > 1:
-        found = f"{len(stuck)} of its rows, such as {stuck[0] + 2}, repeat the measurement before"
+        found = f"{len(stuck)} of its rows, such as {stuck[0] + 2}, repeat the previous measurement"
         raise InvalidFile(
             rows.path, f"{found}, in another posture; expected: the target in sight; try: omit them"
         )
@@ -220,7 +220,7 @@ def _read(
             name = next(name for name in kind.headings if name in names)
             raise InvalidFile(
                 table.path,
-                f"column {name!r} is that of the joint, and {listed(rest, 'and')} need a measured"
+                f"column {name!r} is the joint's, but {listed(rest, 'and')} need a measured"
                 f" {name}; try: call the joint's column '{PREFIX}{name}'",
             )
     note = f" ({arm.tool} is moved by {listed(columns, 'and')})"

@@ -100,7 +100,7 @@ class Table:
     def _dates(self, column: str) -> np.ndarray:
         """The dates (n,) in a column, as seconds since 1970."""
         dates = np.array([_date(cell) for cell in self.cells[column]])
-        valid = f"expected: a date as 2026-11-23T08:15:00.5, or seconds in {column} [s]"
+        valid = f"expected: a date such as 2026-11-23T08:15:00.5, or seconds in {column} [s]"
         self._check(column, np.isfinite(dates), valid)
         return dates
 
@@ -155,7 +155,7 @@ def table_of(
     if len(rows) > most + 1:
         raise InvalidFile(path, f"it has more than {most} rows; try: every tenth of them")
     if len(rows) < 2:
-        raise InvalidFile(path, "it is empty" if not rows else "it has a header and no row")
+        raise InvalidFile(path, "it is empty" if not rows else "it has a header but no rows")
     found = [cell.strip() for cell in rows[0]]
     for separator, name in SEPARATORS.items():
         if len(found) == 1 and separator in found[0]:
