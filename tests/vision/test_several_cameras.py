@@ -198,7 +198,7 @@ def test_what_slips_in_a_session_is_named_in_the_first_lines(
     assert size is None or 1e3 * fault.size == pytest.approx(size, rel=0.25)
     assert np.degrees(fault.turn) == pytest.approx(turn, abs=0.05)
     first = summary(result).splitlines()[1]
-    assert f"Careful: between rows {PICTURES} and {PICTURES + 1} {message}" in first
+    assert f"Careful: between rows {PICTURES} and {PICTURES + 1}, {message}" in first
 
 
 @pytest.mark.parametrize("both", [False, True], ids=["pictures of one", "pictures of both"])
@@ -240,7 +240,7 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
         ((on_the_hand(), "right"), "its board 'board' differs from that in "),
         ((changed(1, board=SMALL), "right"), "its board 'board' differs from that in "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
-        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from its place by"),
+        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from its place in"),
         ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
     ],
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],

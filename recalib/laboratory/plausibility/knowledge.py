@@ -131,6 +131,6 @@ def _gap(given: np.ndarray, found: np.ndarray) -> str:
     angles = Rotation.from_matrix(found[:3, :3]).as_euler("xyz", degrees=True)
     turn = ", ".join(f'"{angle:.0f} deg"' for angle in angles)
     return (
-        f"is {shift:.0f} mm and {angle:.0f} deg away from what the measurements imply; expected:"
+        f"is {shift:.0f} mm and {angle:.0f} deg from its estimate; expected:"
         f" about position = [{place}], roll_pitch_yaw = [{turn}]"
     )
