@@ -72,7 +72,7 @@ def calibrate(
         target: (4, 4) m in the tool link's frame, if known; otherwise identified.
         on_progress: called with a line of text for each step.
 
-    Raises InvalidSetting if an array has another shape; otherwise as `calibrate_arm`.
+    Raises InvalidSetting if an array has another shape; otherwise like `calibrate_arm`.
     """
     if not isinstance(arm, Arm):
         raise InvalidSetting("arm", type(arm).__name__, "an Arm, as load_arm returns")
@@ -167,7 +167,7 @@ def opened(
 def identified(
     arm: Arm, data: DataSet, urdf: UrdfFile | None = None, on_progress: Progress = lambda line: None
 ) -> Calibrated:
-    """Identify the errors of an arm, and validate them. Raises as `calibrate_arm`."""
+    """Identify the errors of an arm, and validate them. Raises like `calibrate_arm`."""
     moving = counted(len(arm.joints), "joint")
     on_progress(f"{len(data)} rows of {moving}, from {arm.base} to {arm.tool}")
     observations, known, offset = data.observations, data.known, None

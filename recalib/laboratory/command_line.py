@@ -1,4 +1,4 @@
-"""The commands, such as `recalib calibrate`; see docs/own_arm.md, pictures.md and live.md."""
+"""The command line of `recalib`; see docs/own_arm.md, pictures.md, poses.md and live.md."""
 
 import io
 import os

@@ -104,7 +104,7 @@ def _written(out: Path, files: dict[str, bytes], good: bool) -> int:
 
 
 def _observed(options: Options) -> Path:
-    """Observe pictures with the joints of a table; the folder, which is next to the output."""
+    """Observe pictures with the joints of a table; return the folder, next to the output."""
     if options.pictures is None:
         raise InvalidSetting("--pictures", None, "a folder of pictures; or --targets, and no URDF")
     folder, table = Path(f"{options.out}_observed"), read_table(options.poses)

@@ -128,7 +128,7 @@ class Correction:
             near: (joints,) rad, m, such as the last command: the solution stays on its branch.
             target, frame: see `correct`.
 
-        Raises as `correct`.
+        Raises like `correct`.
         """
         goals = self._goals(pose, near, target, frame)
         return reach_all(self.calibration, self.postures, goals)[0]
@@ -193,7 +193,7 @@ class Correction:
         target: str | Sequence[str] | None,
         frame: str | None,
     ) -> Goals:
-        """The poses with the numbers of their targets. Raises as `correct`."""
+        """The poses with the numbers of their targets. Raises like `correct`."""
         goals = Goals.of(poses, near, self.arm.coupling)
         frames, kinds = self.calibration.frames, len(self.calibration.estimate.noise)
         frame = frame or (BASE if len(frames.sockets) else INSTRUMENT)

@@ -21,7 +21,7 @@ THICK, GREY = 0.003, (120, 120, 120)  # m
 def log_meshes(
     rec: rr.RecordingStream, source: bytes, urdf: Path, prefix: str
 ) -> tuple[dict[str, list[str]], list[str]]:
-    """Log the visual meshes of a URDF (its content), each in its link's frame `<prefix>/<link>`.
+    """Log the visual meshes of a URDF, given its content, in the links' frames `<prefix>/<link>`.
 
     Returns the entities of each link that has any, and the names of the meshes that are in none of
     the URDF's packages and folders.

@@ -44,7 +44,7 @@ def pictures_at(
     in_hand: bool,
     progress: Progress,
 ) -> Observed:
-    """The board in pictures that were taken at flange poses. Raises as `observe`.
+    """The board in pictures that were taken at flange poses. Raises like `observe`.
 
     Without a column `picture`, the rows of the table follow the order of the pictures' names.
     """
@@ -100,8 +100,8 @@ def calibrate_poses(
     check_motion(sights)
     on_progress("camera and board")
     found = calibrate_hand_eye(sights)
-    faults, still = moved_ends(found)
-    check_fit(still, flange, targets)
+    faults, corrected = moved_ends(found)
+    check_fit(corrected, flange, targets)
     on_progress("errors of poses that are held out")
     good = found.misfit <= WRONG and len(found.outliers) / len(flange) <= MOST
     doubts = [*_doubts(found, pictures, faults, doubt)]

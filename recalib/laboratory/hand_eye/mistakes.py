@@ -67,8 +67,8 @@ def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> N
     remaining = found.misfit
     fits = remaining < WRONG
     sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
-    scale, deviation, left = min(sizes, key=lambda size: size[2])
-    if fits or (left < EXPLAINED * remaining and deviation < SIZE):
+    scale, deviation, error = min(sizes, key=lambda size: size[2])
+    if fits or (error < EXPLAINED * remaining and deviation < SIZE):
         _check_size(scale, deviation)
     if not fits:
         _check_height(found.sights, remaining)

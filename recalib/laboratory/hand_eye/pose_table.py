@@ -68,7 +68,7 @@ OWN = (
 
 
 def convention_of(name: str) -> Convention:
-    """The convention with a name, or of an order of Euler angles such as ZYZ.
+    """The convention with this name, or with this order of Euler angles, such as ZYZ.
 
     Capitals mean moving axes, as in SciPy. Raises UnknownName.
     """

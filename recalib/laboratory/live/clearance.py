@@ -24,7 +24,7 @@ class Clearance:
         home: (joints,) rad, m, a posture in which the arm does not touch itself.
         shapes: of the links; see `load_shapes`.
         floor, self_collision: see `LiveSettings`.
-        tool_radius: m, of the sphere about the tool link's origin that holds the tool's load.
+        tool_radius: m, of the sphere about the tool link's origin that encloses the tool's load.
     """
 
     def __init__(

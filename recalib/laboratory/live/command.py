@@ -33,7 +33,7 @@ TURNED = 0.05  # deg, mm: a joint that moves less is not listed
 
 
 def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) -> Ended:
-    """Move, measure and write rows according to the options. Raises as `calibrate_live`."""
+    """Move, measure and write rows according to the options. Raises like `calibrate_live`."""
     arm = load_arm(given.urdf, given.tool, given.base)
     error = None if given.error is None else LENGTH.value_of("--error", given.error)
     box = None if given.box is None else Box.read(given.box)

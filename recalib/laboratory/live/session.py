@@ -192,7 +192,7 @@ class _Session:
         ask: Callable[[Move], Answer],
         on_row: Callable[[Observations, RunningCalibration], None],
     ) -> str:
-        """Measure until the rows are enough; the reason why they are."""
+        """Measure until the rows are enough, and return the reason."""
         rows, unseen = self.record.observations or self._measured(), 0
         if rows is None:
             raise StationFailed(
@@ -226,7 +226,7 @@ class _Session:
                 )
 
     def _go_to(self, goal: np.ndarray, ask: Callable[[Move], Answer]) -> Answer:
-        """Move to a posture, if a person agrees; the answer."""
+        """Move to a posture if a person agrees, and return the answer."""
         for posture in self.postures.path(self.station.angles(), goal):
             start = self.station.angles()
             self.postures.check(start, posture)

@@ -136,21 +136,21 @@ def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str |
     """
     if given is None:
         return None if own.converged else UNSETTLED
-    left = reprojection_error(views, given)
+    error = reprojection_error(views, given)
     free = sum(2 * len(view.numbers) - 6 for _, view in views)
-    surplus = free * ((left / own.error) ** 2 - 1) / len(optics_kinds(own.lens))
+    surplus = free * ((error / own.error) ** 2 - 1) / len(optics_kinds(own.lens))
     known, focal = (lens.matrix.diagonal()[:2] for lens in (given, own.lens))
     off = np.abs(known - focal)
     sure = (off > SURE * own.deviations) & own.converged
-    if not sure.any() and (left <= SIMILAR * own.error or surplus < CHANCE):
+    if not sure.any() and (error <= SIMILAR * own.error or surplus < CHANCE):
         return None
     lengths, others = (f"{x:.1f} and {y:.1f}" for x, y in (known, focal))
     found = (
         f"the given lens has focal lengths of {lengths} px, and a reprojection error of"
-        f" {left:.3g} px in these pictures; one estimated from them, {own.lens.model},"
+        f" {error:.3g} px in these pictures; one estimated from them, {own.lens.model},"
         f" has {others} px (deviation {own.deviations.max():.2g} px), and {own.error:.3g} px"
     )
-    if left > max(OTHER * own.error, LEAST) or (sure & (off > ZOOMED * focal)).any():
+    if error > max(OTHER * own.error, LEAST) or (sure & (off > ZOOMED * focal)).any():
         raise RecalibError(f"{found}: it is not this camera's; try: without --lens")
     return f"{found}; check that it belongs to this camera and that focus and zoom are unchanged"
 

@@ -118,7 +118,7 @@ def calibrate_pictures(
         folders: one for each camera and board.
         urdf, description, tool, base, on_progress: see `calibrate_arm`.
 
-    Raises RecalibError, as `calibrate_arm`.
+    Raises RecalibError like `calibrate_arm`.
     """
     file, arm, known = opened(urdf, description, tool, base)
     on_progress(file.origin)

@@ -78,7 +78,7 @@ def _outvoted(result: Results) -> Iterator[tuple[str, int, int]]:
 
 
 def _worn(result: Results) -> tuple[Parameter, float] | None:
-    """The joint or link error with the largest ratio to its prior deviation, if wear is not why."""
+    """The joint or link error that exceeds its prior deviation most, and the ratio, if > `WORN`."""
     model = result.geometry.model
     ratios = result.geometry.estimate.parameters / model.deviations
     ratios = np.where(model.free | (model.deviations <= HELD), 0.0, np.abs(ratios))

@@ -57,16 +57,16 @@ def errors_table(result: Results) -> list[ErrorRow]:
     for way in WAYS:
         for kind in KINDS:
             add(validation.held_out_by(way, kind), way, DOING[kind], kind == validation.chosen)
-    if left := int(np.sum(~validation.counted)):
+    if omitted := int(np.sum(~validation.counted)):
         outliers = validation.held_out[BLOCKWISE][validation.chosen][~validation.counted]
-        add(outliers, "left out", f"{counted(left, 'row')}, as outliers", False)
+        add(outliers, "left out", f"{counted(omitted, 'row')}, as outliers", False)
     return rows
 
 
 def verdict(result: Results) -> str:
     """The headline of a calibration, then its warnings."""
-    chosen, left = result.validation.chosen, np.sum(~result.validation.counted)
-    without = f", {left} of {len(result.data)} rows left out as outliers" if left else ""
+    chosen, omitted = result.validation.chosen, np.sum(~result.validation.counted)
+    without = f", {omitted} of {len(result.data)} rows left out as outliers" if omitted else ""
     compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
     before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
     if result.worthwhile:

@@ -86,7 +86,7 @@ def read_measurements(
 
 
 def read_joints(path: AnyPath, arm: Arm) -> Measurements:
-    """Joint coordinates and pictures in the table at `path`. Raises as `read_measurements`."""
+    """Joint coordinates and pictures in the table at `path`. Raises like `read_measurements`."""
     rows = _read(read_table(path), arm, MEASURED)
     _check_rows(rows)
     return rows
@@ -98,7 +98,7 @@ def read_desired(path: AnyPath, arm: Arm, target: bool = False) -> Measurements:
     Args:
         target: whether rows may name the target whose pose is desired.
 
-    Raises InvalidFile as `read_measurements`, but one row is enough; also for columns that only
+    Raises InvalidFile like `read_measurements`, but one row is enough; also for columns that only
     measurements have, and for commands, which are corrected already.
     """
     table = read_table(path)
@@ -118,7 +118,7 @@ def measurements_so_far(
 ) -> Measurements:
     """The measurements in the content of a growing table: one row is enough.
 
-    Raises InvalidFile as `read_measurements`, and if the table has no positions.
+    Raises InvalidFile like `read_measurements`, and if the table has no positions.
     """
     rows = _read(table_of(content, path, description.columns), arm, MEASURED)
     if rows.measured is None:

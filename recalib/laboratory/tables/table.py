@@ -82,7 +82,7 @@ class Table:
         return self.numbers(column, kind.quantity)
 
     def numbers(self, column: str, quantity: Quantity) -> np.ndarray:
-        """The numbers (n,) in a column, in SI units. Raises InvalidFile, as `read`."""
+        """The numbers (n,) in a column, in SI units. Raises InvalidFile like `read`."""
         unit = self.units[column]
         if unit not in quantity.units:
             found = f"is in {unit!r}" if unit else "names no unit"

@@ -52,7 +52,7 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
 def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = "") -> bytes:
     """The URDF with new origins (4, 4) [m] of the named joints, and with XML added at its end.
 
-    Nothing else changes. Raises UnsuitableRobot as `corrected_urdf`.
+    Nothing else changes. Raises UnsuitableRobot like `corrected_urdf`.
     """
     code = encoding(source)
     text = source.decode(code).encode("utf-8")
