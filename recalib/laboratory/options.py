@@ -75,7 +75,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     for name, kind, default, text in (
         ("--poses", _path, None, "table of the flange's poses in the base"),
         ("--pictures", _path, None, "folder of the board's pictures, one for each pose"),
-        ("--targets", _path, None, "instead: table of the target's poses in the camera"),
+        ("--targets", _path, None, "or table of the target's poses in the camera"),
         ("--board", _path, "board/board.toml", "description of the board (default: %(default)s)"),
         ("--lens", _path, None, "lens calibration (default: estimated)"),
         ("--convention", str, None, f"notation of rotations: {WAYS}, or an order: ZYZ, xyz"),
@@ -84,7 +84,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     ):
         group.add_argument(name, type=kind, default=default, help=text)
     group.add_argument("--camera", choices=CAMERAS, default=FIXED, help=where)
-    group.add_argument("--unit", choices=LENGTH.units, help="unit of positions without one")
+    group.add_argument("--unit", choices=LENGTH.units, help="unit of positions whose heading has none")
     text = "this table has the inverse poses: base in flange, or camera in target"
     group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
 

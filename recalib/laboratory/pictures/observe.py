@@ -158,7 +158,7 @@ def _posed(
         most = max(WORSE * np.nanmedian([picture.error for picture in pictures]), LEAST)
         pictures = [
             picture.refused(
-                f"its corners are off by {picture.error:.2f} px: the board moved or is not flat"
+                f"its corners are {picture.error:.2f} px off: the board moved, or is not flat"
             )
             if picture.error > most
             else picture

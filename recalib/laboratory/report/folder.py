@@ -156,10 +156,10 @@ def _arm_as_right(
     flange, places = arm.forward(rows.joints), dict[str, Place]()
     residuals = {way: np.zeros((len(rows), 6)) for way in held_out}
     for sight, pair in enumerate(result.geometry.frames.sights):
-        own = np.flatnonzero(rows.targets == sight)
-        found = calibrate_hand_eye(Sights(flange, rows.measured, False, rows.optics)[own])
+        members = np.flatnonzero(rows.targets == sight)
+        found = calibrate_hand_eye(Sights(flange, rows.measured, False, rows.optics)[members])
         for way, part in residuals.items():
-            part[own] = without_fold(found, held_out[way].folds[own])
+            part[members] = without_fold(found, held_out[way].folds[members])
         names = data.instruments[pair[0]], data.target_names[pair[1]]
         for place in hand_eye_places(found, names, links):
             places.setdefault(place.name, place)

@@ -51,7 +51,7 @@ SOCKETS = Columns(
     "sockets", ("socket",), NAME, "instead of a position: name of the socket that held the ball"
 )
 PICTURE = "picture"
-PICTURES = Columns("pictures", (PICTURE,), TEXT, "file name; recalib observe needs it")
+PICTURES = Columns("pictures", (PICTURE,), TEXT, "file name of a picture, for recalib observe")
 TIMES = Columns(
     "times",
     ("time",),
