@@ -84,7 +84,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     ):
         group.add_argument(name, type=kind, default=default, help=text)
     group.add_argument("--camera", choices=CAMERAS, default=FIXED, help=where)
-    group.add_argument("--unit", choices=LENGTH.units, help="unit of positions whose heading has none")
+    group.add_argument("--unit", choices=LENGTH.units, help="unit of positions, if not in headings")
     text = "this table has the inverse poses: base in flange, or camera in target"
     group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
 
