@@ -129,7 +129,7 @@ def _files(
 ) -> dict[str, bytes]:
     """All files, by name, of a calibration from a table and, if there are any, pictures.
 
-    The error of each pose is from a calibration without it. Their mean squares omit outliers.
+    The error of each pose is from a calibration without it. Mean squares omit outliers.
     """
     sights, residuals = found.sights, held_out(found)
     moved = sights.corners.moved(residuals)

@@ -23,7 +23,7 @@ from recalib.spelling import counted
 FEWEST = 6  # poses: each has 6 numbers, for 12 unknowns
 NEAREST = 0.02  # m: no camera can focus on a nearer board
 ALIKE = 2.0  # deg: orientations within it count as equal
-WRONG, HOPELESS = 5e-3, 50e-3  # m: misfits that few, and that no arm and camera leave
+WRONG, HOPELESS = 5e-3, 50e-3  # m: largest misfit of most arms and cameras, and of any
 EXPLAINED = 0.3  # the fraction of a misfit that may remain once a mistake is corrected
 OPEN = 0.05, np.radians(5)  # m, rad: a result with a larger deviation is useless
 LOOSE = 1e-2  # of the largest singular value: smaller ones leave a direction undetermined
