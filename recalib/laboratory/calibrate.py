@@ -32,7 +32,7 @@ from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted
 
 Progress = Callable[[str], None]
-ARRAYS = Path("the arrays")  # what messages call measurements without a file
+ARRAYS = Path("the arrays")  # the name of measurements without a file in messages
 
 
 class Calibrated(Results):
@@ -59,20 +59,20 @@ def calibrate(
     """Identify the errors of an arm from arrays of measurements.
 
     Args:
-        arm: the nominal one.
-        joints: (n, joints) rad, or m where a joint slides, that the controller reported; without
+        arm: the nominal arm.
+        joints: (n, joints) rad, or m for sliding joints, as the controller reported them; without
             joints that follow others.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of a target on the tool, in the frame of
             the instrument.
         targets: (n,) names of the targets, if there are several.
         sockets: (n,) instead of `measured`: names of the sockets that held a ball on the tool.
         distances: m between the centres of two sockets, by their names.
-        times: (n,) s when rows were measured, in this order.
+        times: (n,) s, when each row was measured; never decreasing.
         instrument: (4, 4) m in the arm's base, if known; otherwise identified.
         target: (4, 4) m in the tool link's frame, if known; otherwise identified.
-        on_progress: called with the current step, in a line each.
+        on_progress: called with a line of text for each step.
 
-    Raises InvalidSetting: arrays of other shapes; and as `calibrate_arm`.
+    Raises InvalidSetting if an array has another shape; otherwise like `calibrate_arm`.
     """
     if not isinstance(arm, Arm):
         raise InvalidSetting("arm", type(arm).__name__, "an Arm, as load_arm returns")
@@ -115,7 +115,7 @@ def _frame(name: str, given: ArrayLike | None) -> np.ndarray | None:
 
 
 def _names(kind: Columns, labels: Any, count: int) -> np.ndarray:
-    """Names (n,), as in the column of a table. Raises InvalidSetting and InvalidFile."""
+    """Names (n,), checked like a column of a table. Raises InvalidSetting and InvalidFile."""
     try:
         given = [] if isinstance(labels, str) else [*labels]
     except TypeError:  # a number
@@ -139,14 +139,13 @@ def calibrate_arm(
 
     Args:
         urdf: a path, or a name that `recalib.nominal.arms.find_urdf` knows.
-        table: see docs/own_arm.md.
-        description: what the table cannot express.
-        tool, base: link names; needed only if there are several ends.
-        on_progress: called with the current step, in a line each.
+        table: of measurements; see docs/own_arm.md.
+        description: frames, distances and columns that the table cannot express.
+        tool, base: link names; needed only if the arm has several ends.
+        on_progress: called with a line of text for each step.
 
-    Raises RecalibError: an arm, a table or a description that cannot be used; nominal positions of
-    another arm; frames that are not identifiable, or contradict the description; a fit that cannot
-    be trusted.
+    Raises RecalibError: an unusable arm, table or description; nominal positions of another arm;
+    frames that are not identifiable, or contradict the description; a fit that cannot be trusted.
     """
     file, arm, known = opened(urdf, description, tool, base)
     on_progress(file.origin)
@@ -157,7 +156,7 @@ def calibrate_arm(
 def opened(
     urdf: AnyPath, description: AnyPath | Description | None, tool: str | None, base: str | None
 ) -> tuple[UrdfFile, Arm, Description]:
-    """The files that `calibrate_arm` is given: of the URDF, its arm, and the description."""
+    """Read the inputs of `calibrate_arm`: the URDF file, its arm, and the description."""
     file = UrdfFile.read(urdf)
     arm = arm_of(file.content, file.path, tool, base)
     if description is not None and not isinstance(description, Description):
@@ -168,13 +167,13 @@ def opened(
 def identified(
     arm: Arm, data: DataSet, urdf: UrdfFile | None = None, on_progress: Progress = lambda line: None
 ) -> Calibrated:
-    """Identify the errors of an arm, and validate them. Raises as `calibrate_arm`."""
+    """Identify the errors of an arm, and validate them. Raises like `calibrate_arm`."""
     moving = counted(len(arm.joints), "joint")
     on_progress(f"{len(data)} rows of {moving}, from {arm.base} to {arm.tool}")
     observations, known, offset = data.observations, data.known, None
     if data.nominal is not None:
-        stand = None if known.instrument is None else np.linalg.inv(known.instrument)
-        offset = check_nominal(arm, observations.joints, data.nominal, stand, known.target)
+        base = None if known.instrument is None else np.linalg.inv(known.instrument)
+        offset = check_nominal(arm, observations.joints, data.nominal, base, known.target)
     on_progress("initial estimate of instrument and target")
     frames = frames_of(arm, data)
     if observations.optics is not None:

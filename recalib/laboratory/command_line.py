@@ -1,4 +1,4 @@
-"""The command line: `recalib calibrate` and others; docs/own_arm.md, pictures.md and live.md."""
+"""The command line of `recalib`; see docs/own_arm.md, pictures.md, poses.md and live.md."""
 
 import io
 import os
@@ -13,21 +13,21 @@ from recalib.files.outputs import check_new, is_taken
 from recalib.laboratory.options import DONE, NO_BETTER, REFUSED, parse
 
 __all__ = ["DONE", "NO_BETTER", "REFUSED", "main"]
-CACHE = "MPLCONFIGDIR"  # the environment variable with Matplotlib's folder
+CACHE = "MPLCONFIGDIR"  # the environment variable that names Matplotlib's folder
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command, and return its exit code. A mistake is one sentence on stderr."""
+    """Run a command and return its exit code. An error is one sentence on stderr."""
     options = parse(sys.argv[1:] if arguments is None else arguments)
-    # NumPy reads it when it is imported. Of matrices so small, each thread would wait for others:
-    # where something else is at work, ten times as long as it takes one alone.
+    # NumPy reads this on import. With matrices this small, threads mostly wait for each other:
+    # on a busy machine, several take ten times as long as one.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="backslashreplace")  # names may have letters that it lacks
+        sys.stdout.reconfigure(errors="backslashreplace")  # names may be outside its encoding
     try:
         check_new(options.out, options.folder)
         with _no_cache_at_home():
-            # imported when one was chosen: help and refusals need not wait for Pinocchio and SciPy
+            # imported only now, so that help and refusals do not wait for Pinocchio and SciPy
             command = getattr(import_module("recalib.laboratory.commands"), options.command)
             return int(command(options))
     except RecalibError as error:
@@ -40,17 +40,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         message = "there is not enough memory for this; try: fewer rows"
     except KeyboardInterrupt:
-        there = is_taken(options.out, options.folder)
-        message = f"interrupted; {options.out} is {'complete' if there else 'not written'}"
+        complete = is_taken(options.out, options.folder)
+        message = f"interrupted; {options.out} is {'complete' if complete else 'not written'}"
     print(f"recalib: {message}", file=sys.stderr)
     return REFUSED
 
 
 @contextmanager
 def _no_cache_at_home() -> Iterator[None]:
-    """Have Matplotlib keep its list of fonts in a folder that is removed, unless one is set.
+    """Keep Matplotlib's font cache in a temporary folder, unless the user has set a folder.
 
-    A command writes nothing but its output. Making the list takes a fraction of a second.
+    A command writes nothing but its output. Building the cache takes a fraction of a second.
     """
     if CACHE in os.environ:
         yield

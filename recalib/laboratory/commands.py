@@ -1,4 +1,4 @@
-"""What each command of `recalib` does with its options, in a function of the same name."""
+"""The commands of `recalib`: for each, a function of the same name that takes the options."""
 
 import argparse
 import os
@@ -31,13 +31,13 @@ from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
 from recalib.spelling import counted
 
-TURNED = 0.01  # deg: a rotation that is off by less is reached
-ENOUGH = 0.05  # a part of the uncertainty: a smaller gain is not worth the measurements
+TURNED = 0.01  # deg: a rotation with a smaller error counts as reached
+ENOUGH = 0.05  # of the uncertainty: a smaller reduction is not worth the measurements
 Options = argparse.Namespace
 
 
 def _load(module: str, name: str) -> Any:
-    """A function that needs an optional package: Matplotlib, Rerun or OpenCV."""
+    """Import a function that needs an optional package: Matplotlib, Rerun or OpenCV."""
     return getattr(import_module(f"recalib.{module}"), name)
 
 
@@ -54,7 +54,7 @@ def calibrate(options: Options) -> int:
 
 
 def calibrate_poses(options: Options) -> int:
-    """Write a folder of where camera and board are, without a URDF."""
+    """Write a folder with the poses of camera and board, without a URDF."""
     if (options.pictures is None) == (options.targets is None):
         raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
     calibrating = import_module("recalib.laboratory.hand_eye.calibrating")
@@ -64,15 +64,15 @@ def calibrate_poses(options: Options) -> int:
         given = options.pictures, options.board, options.lens, in_hand, print_progress
         shown = calibrating.pictures_at(flange, *given)
     else:
-        own = options.target_convention, options.unit, "targets" in inverse
-        shown = read_poses(options.targets, *own)
+        settings = options.target_convention, options.unit, "targets" in inverse
+        shown = read_poses(options.targets, *settings)
     height = options.height and within("--height", options.height, LENGTH, 1e-4)
     files, good = calibrating.calibrate_poses(flange, shown, in_hand, height, print_progress)
     return _written(options.out, files, good)
 
 
 def calibrate_rows(options: Options) -> int:
-    """Write a folder of results of an arm, from a table or from folders of pictures."""
+    """Write a folder with the calibration of an arm, from a table or from folders of pictures."""
     page_of = _load("laboratory.report.page", "page_of")
     paths: list[Path] = options.measurements
     folders = [path for path in paths if os.path.isdir(path)]
@@ -96,7 +96,7 @@ def calibrate_rows(options: Options) -> int:
 
 
 def _written(out: Path, files: dict[str, bytes], good: bool) -> int:
-    """Write a folder and print its summary; the exit code."""
+    """Write a folder, print its summary and return the exit code."""
     write_new(out, files)
     print(files["summary.txt"].decode(), end="")
     print(f"\n{out}: {', '.join(files)}")
@@ -104,19 +104,19 @@ def _written(out: Path, files: dict[str, bytes], good: bool) -> int:
 
 
 def _observed(options: Options) -> Path:
-    """The folder, written next to the output, of what pictures show with the joints of a table."""
+    """Observe pictures with the joints of a table; return the folder, next to the output."""
     if options.pictures is None:
-        raise InvalidSetting("--pictures", None, "a folder of pictures; without a URDF, --targets")
+        raise InvalidSetting("--pictures", None, "a folder of pictures; or --targets, and no URDF")
     folder, table = Path(f"{options.out}_observed"), read_table(options.poses)
-    own = convention_of(options.convention).headings if options.convention else ()
-    cells = {name: cells for name, cells in table.cells.items() if name.lower() not in own}
+    rotations = convention_of(options.convention).headings if options.convention else ()
+    cells = {name: cells for name, cells in table.cells.items() if name.lower() not in rotations}
     given = {"joints": replace(table, cells=cells), "name": "camera", "out": folder}
     observe(Options(**vars(options) | given))
     return folder
 
 
 def live(options: Options) -> int:
-    """Move and measure, then calibrate by all rows."""
+    """Move and measure, then calibrate from all rows."""
     observed = Path(options.out).with_name(f"{Path(options.out).name}_observed")
     if options.board is not None:
         check_new(observed, folder=True)
@@ -128,7 +128,7 @@ def live(options: Options) -> int:
         print(f"{counted(ended.rows, 'row')} in {options.table}; {more}")
         return DONE
     options.measurements = [options.table]
-    if options.board is not None:  # all corners together determine more, also of the lens
+    if options.board is not None:  # all corners together determine the lens, too
         pictures = {"pictures": Path("."), "joints": options.table, "name": "camera", "lens": None}
         observe(Options(**vars(options) | pictures | {"out": observed}))
         options.measurements = [observed]
@@ -141,7 +141,7 @@ def correct(options: Options) -> int:
     arm = correction.arm
     rows = read_desired(options.desired, arm, target=frame == INSTRUMENT)
     poses, targets = rows.measured, rows.columns.get(TARGETS.name)
-    if poses is None:  # joints mean the pose that they give the nominal arm
+    if poses is None:  # joints alone stand for the pose that the nominal arm has there
         if frame == INSTRUMENT:
             valid = "a target's poses in the instrument's frame; joints alone need --frame base"
             raise InvalidFile(options.desired, f"x, y, z are missing; expected: {valid}")
@@ -164,13 +164,13 @@ def correct(options: Options) -> int:
     for line in render("correct.txt.j2", **values).splitlines():
         print(f"recalib: warning: {line}", file=sys.stderr)
     made = counted(len(commands.joints), "command")
-    print(f"{made} in {options.out}: joint coordinates, and the poses that")
-    print(f"the nominal kinematics give them, of {arm.tool} in {arm.base}")
+    print(f"{made} in {options.out}: joint coordinates, and at them")
+    print(f"the poses of {arm.tool} in {arm.base} by the nominal kinematics")
     return DONE
 
 
 def next(options: Options) -> int:
-    """Write the most informative postures, or poses of a flange."""
+    """Write the most informative postures or flange poses."""
     if options.poses:
         return next_poses(options)
     correction = load_correction(options.calibration)
@@ -194,15 +194,15 @@ def next(options: Options) -> int:
 
 
 def next_poses(options: Options) -> int:
-    """Write the poses of a flange with the most information on a camera's place."""
+    """Write the flange poses that are most informative about the camera's pose."""
     propose_poses = _load("laboratory.hand_eye.proposing", "propose_poses")
     box = None if options.box is None else Box.read(options.box)
     cone = ANGLE.value_of("--cone", options.cone)
     poses, deviations = propose_poses(options.calibration, options.count, box, cone)
     write_new(options.out, table_text(pose_rows(poses)), ".csv")
     before, after = 1e3 * deviations[[0, -1]]
-    print(f"{counted(len(poses), 'pose')} of the flange in {options.out}, the best first.")
-    print(f"They would reduce the camera's deviation from {before:.3g} mm to {after:.3g} mm.")
+    print(f"{counted(len(poses), 'flange pose')} in {options.out}, the most informative first.")
+    print(f"They would reduce the camera's uncertainty from {before:.3g} mm to {after:.3g} mm.")
     return DONE
 
 
@@ -215,7 +215,7 @@ def urdf(options: Options) -> int:
 
 
 def _beyond(correction: Correction, commands: Commands) -> dict[str, Any]:
-    """The commands that leave the range that was learned from, and the farthest [mm, deg]."""
+    """The number of commands beyond the measured range, and the farthest one [mm, deg]."""
     coupling, postures = correction.arm.coupling, correction.postures
     low, high = postures.min(axis=0), postures.max(axis=0)
     parts = commands.beyond / np.maximum(high - low, STILL)
@@ -240,14 +240,12 @@ def board(options: Options) -> int:
     files = {"board.pdf": pdf, "board.svg": svg, "board.toml": sheet.described().encode()}
     write_new(options.out, files)
     print(f"{options.out}: {', '.join(files)}. Print at true size, on {paper[0]:g} x")
-    print(
-        f"{paper[1]:g} mm, glue it to something flat, and measure the bar: it is {bar:g} mm long."
-    )
+    print(f"{paper[1]:g} mm, glue it to something flat, and check that the bar is {bar:g} mm long.")
     return DONE
 
 
 def observe(options: Options) -> int:
-    """Write a folder of what pictures show."""
+    """Write a folder with the corners found in pictures, and their page."""
     find_boards = _load("laboratory.pictures.observe", "observe")
     page_of_pictures = _load("laboratory.pictures.page_of_pictures", "page_of_pictures")
     pictures = options.pictures, options.joints, options.board, options.lens

@@ -1,11 +1,11 @@
 """A calibrated arm in one self-contained file, and commands that take the real arm to poses.
 
 The file is an archive (`recalib.files.archives`). Its header holds the format's version, the
-nominal arm's base and tool link and the names of the targets. Its arrays are the bytes of the arm's
-URDF, the calibration's, and the joint coordinates learned from.
+nominal arm's base and tool link, and the names of the targets. Its arrays hold the bytes of the
+arm's URDF, the state of the calibration, and the measured joint coordinates.
 
-The commands are the paper's own idea: the controller gets a *fake* pose, from which its nominal
-kinematics make the joint coordinates that take the real arm to the desired pose.
+The commands are the paper's own idea: the controller gets a *fake* pose. With its nominal
+kinematics, it turns this pose into the joints that take the real arm to the desired pose.
 """
 
 import os
@@ -32,10 +32,10 @@ from recalib.spelling import listed
 
 FORMAT, WRITER = ("recalib correction", 4), "recalib calibrate"
 NAME = "correction.npz"  # of the file in the folder of a calibration
-BASE, INSTRUMENT = FRAMES = "base", "instrument"  # in which poses are desired
-NEAR = 0.05  # m from a desired pose to where the joints given with it take the arm
-BETTER = 0.1  # the part of this distance that is left if the frame is the other one
-MARGIN = 0.05  # beyond the range learned from, as a part of it
+BASE, INSTRUMENT = FRAMES = "base", "instrument"  # of desired poses
+NEAR = 0.05  # m between a desired pose and the arm's pose at the joints given with it
+BETTER = 0.1  # the fraction of this distance that remains if the poses are in the other frame
+MARGIN = 0.05  # at either end of the measured range, as a fraction of this range
 
 
 @dataclass(frozen=True)
@@ -43,12 +43,12 @@ class Commands:
     """Commands to send to the controller.
 
     Attributes:
-        joints: (n, columns) rad, or m where a joint slides, that the controller has to assume.
-        poses: (n, 4, 4) m of the tool in the base by the nominal kinematics: the fake poses.
-        beyond: (n, columns) rad, or m where a joint slides, by how much each leaves the range that
-            was learned from; zero up to a twentieth of that range.
-        turned: (n,) rad between desired and reached rotation, of an arm of fewer than six joints.
-        outside: (n, 2) m and rad, how far the desired pose is from those that were measured.
+        joints: (n, columns) rad, or m for sliding joints, for the controller to go to.
+        poses: (n, 4, 4) m of the nominal tool in the base at these joints: the fake poses.
+        beyond: (n, columns) rad, or m for sliding joints, distance outside the measured range;
+            zero within a margin of a twentieth of this range.
+        turned: (n,) rad, error of the reached rotation if the arm has fewer than six joints.
+        outside: (n, 2) m and rad, distance of each desired pose from the measured poses.
     """
 
     joints: np.ndarray
@@ -60,13 +60,13 @@ class Commands:
 
 @dataclass(frozen=True)
 class Correction:
-    """A calibrated arm that corrects commands, with its measured postures.
+    """A calibrated arm that corrects commands, and the postures in which it was measured.
 
     Attributes:
-        urdf: the nominal arm's file, as the user gave it; empty if there is none.
+        urdf: content of the nominal arm's file, as the user gave it; empty without a file.
         calibration: the identified errors of the arm, and the frames.
-        learned: (n, joints) rad, or m where a joint slides, from which it was identified.
-        targets: their names, in the order of their numbers.
+        learned: (n, joints) rad, or m for sliding joints, of the measured postures.
+        targets: names of the targets, in the order of their numbers.
     """
 
     urdf: bytes
@@ -88,18 +88,18 @@ class Correction:
     ) -> Commands:
         """Commands that take the real arm to desired poses.
 
-        Arms of fewer than six joints are taken to the position, with the rotation as near as they
-        can.
+        An arm of fewer than six joints reaches the position, with the rotation as near as
+        possible.
 
         Args:
             poses: (n, 4, 4), or positions (n, 3) [m], of targets in the instrument's frame, or of
-                the tool link in the arm's base; one pose or position will do.
+                the tool link in the arm's base; a single pose or position is allowed.
             near: (n, columns) rad, m: postures to stay near to, as the controller reports them.
-            target: the name of the target, or of each; needed if there are several.
+            target: the name of the target, or a name for each pose; needed with several targets.
             frame: instrument or base (default: instrument; base if balls in sockets were measured).
 
-        Raises NotReached; InvalidSetting: another shape, a frame that is not identifiable or that
-        the poses are not in; UnknownName: no such frame or target.
+        Raises NotReached; InvalidSetting: another shape, a frame that is not identifiable, or one
+        that contradicts the given joints; UnknownName: an unknown frame or target.
         """
         goals = self._goals(poses, near, target, frame)
         self._check_frame(goals)
@@ -126,21 +126,21 @@ class Correction:
         Args:
             pose: (4, 4), or a position (3,) [m] if the rotation is free.
             near: (joints,) rad, m, such as the last command: the solution stays on its branch.
-            target, frame: as of `correct`.
+            target, frame: see `correct`.
 
-        Raises as `correct`.
+        Raises like `correct`.
         """
         goals = self._goals(pose, near, target, frame)
         return reach_all(self.calibration, self.postures, goals)[0]
 
     @cached_property
     def postures(self) -> np.ndarray:
-        """(n, columns) rad, m learned from, as the controller reports them."""
+        """The measured postures (n, columns) [rad, m], as the controller reports them."""
         return self.arm.coupling.reported(self.learned)
 
     @property
     def base_known(self) -> bool:
-        """Whether the measurements determine where the arm's base is."""
+        """Whether the measurements determine the pose of the arm's base."""
         frames = self.calibration.frames
         return not frames.base_unknown or bool(len(frames.sockets))
 
@@ -157,14 +157,14 @@ class Correction:
         return " and ".join(end for end, unknown in ends.items() if unknown) or None
 
     def archive(self) -> bytes:
-        """The content of its file. Raises InvalidSetting without a URDF."""
+        """The content of the file. Raises InvalidSetting without a URDF."""
         if not self.urdf:
-            valid = "the file of the arm: only what was calibrated with it can be saved"
+            valid = "the arm's file; try: calibrate_arm, whose result can be saved"
             raise InvalidSetting("urdf", None, valid)
         form, version = FORMAT
         arm = {"tool": self.arm.tool, "base": self.arm.base, "targets": self.targets}
         header = {"format": form, "version": version, **arm}
-        urdf = np.frombuffer(self.urdf, dtype=np.uint8)  # in whichever encoding it is
+        urdf = np.frombuffer(self.urdf, dtype=np.uint8)  # in any encoding
         state = {"urdf": urdf, "learned": self.learned, "calibration": self.calibration.state()}
         return archive_of(header, state)
 
@@ -175,7 +175,7 @@ class Correction:
 
     @classmethod
     def from_archive(cls, content: bytes, path: Path) -> "Correction":
-        """Restore from `archive`; the path appears in messages. Raises InvalidFile."""
+        """Restore what `archive` returned; messages name the path. Raises InvalidFile."""
         header, state = opened(content, path, FORMAT, WRITER)
         with refused(path, WRITER):
             urdf = state["urdf"].tobytes()
@@ -193,7 +193,7 @@ class Correction:
         target: str | Sequence[str] | None,
         frame: str | None,
     ) -> Goals:
-        """The poses with the numbers of their targets. Raises as `correct`."""
+        """The poses with the numbers of their targets. Raises like `correct`."""
         goals = Goals.of(poses, near, self.arm.coupling)
         frames, kinds = self.calibration.frames, len(self.calibration.estimate.noise)
         frame = frame or (BASE if len(frames.sockets) else INSTRUMENT)
@@ -201,7 +201,7 @@ class Correction:
             raise UnknownName("frame", str(frame), FRAMES)
         if frame == BASE:
             if target is not None:
-                raise InvalidSetting("frame", frame, "instrument, in which a target's poses are")
+                raise InvalidSetting("frame", frame, "instrument, the frame of a target's poses")
             if not self.base_known:
                 raise InvalidSetting(
                     "frame",
@@ -211,7 +211,7 @@ class Correction:
                 )
             return goals
         if len(frames.sockets):
-            raise InvalidSetting("frame", frame, "base: a ball in sockets had no instrument")
+            raise InvalidSetting("frame", frame, "base: balls in sockets need no instrument")
         if goals.poses.ndim == 3 and frames.targets_unknown and kinds == 1:
             valid = "positions alone: measured positions do not determine a target's rotation"
             raise InvalidSetting("rotations of a target", "given", valid)
@@ -227,7 +227,7 @@ class Correction:
         return replace(goals, targets=np.resize(numbers, len(goals)))
 
     def _outside(self, goals: Goals) -> np.ndarray:
-        """How far goals are from the poses that were measured: (n, 2) m and rad."""
+        """Distances (n, 2) [m, rad] of goals from the measured poses."""
         far = np.zeros((len(goals), 2))
         for target, rows in by_sight(goals.targets, len(goals)):
             number = None if goals.targets is None else target
@@ -236,7 +236,7 @@ class Correction:
         return far
 
     def _check_frame(self, goals: Goals) -> None:
-        """Raise InvalidSetting if the joints take the arm to the poses, but in the other frame."""
+        """Raise InvalidSetting if the given joints reach the poses only in the other frame."""
         postures, places = goals.postures, goals.positions
         if postures is None or len(self.targets) > 1 or len(self.calibration.frames.sockets):
             return
@@ -255,7 +255,7 @@ class Correction:
             )
 
     def _is_consistent(self) -> bool:
-        """Whether the parts of a file belong together; if not, it may raise anything."""
+        """Whether the parts of a file belong together; any exception means that they do not."""
         calibration, learned = self.calibration, self.learned
         estimate, frames = calibration.estimate, calibration.model.frames
         sights, ends = frames.sights, (len(frames.bases), len(frames.targets))
@@ -272,6 +272,6 @@ class Correction:
 
 
 def load_correction(path: AnyPath) -> Correction:
-    """The calibrated arm in a file, or in a folder of `recalib calibrate`. Raises InvalidFile."""
+    """The calibrated arm in a file, or in a folder from `recalib calibrate`. Raises InvalidFile."""
     file = path_of(path) if os.path.isfile(path_of(path)) else Path(path, NAME)
     return Correction.from_archive(read_file(file, MOST), file)

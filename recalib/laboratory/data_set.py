@@ -18,7 +18,7 @@ TARGET: tuple[str, ...] = ("the target",)
 
 @dataclass(frozen=True)
 class DataSet:
-    """Observations, with names of targets, sockets and instruments by their numbers."""
+    """Observations, and the names of their targets, sockets and instruments."""
 
     observations: Observations
     targets: tuple[str, ...] = TARGET
@@ -27,11 +27,11 @@ class DataSet:
     known: Description = field(default_factory=Description)  # frames that the user gives
     # (s, 2) the numbers of instrument and target of each sight; None if there is one instrument
     sights: np.ndarray | None = None
-    tables: tuple[Path, ...] = ()  # the files; several are each of another sight
-    nominal: np.ndarray | None = None  # (n, 3) m, where the positions should have been
-    boards: tuple[str, ...] = ()  # in pictures
-    doubts: Sequence[str] = ()  # about lenses, in sentences without their full stops
-    # the files of lenses by name, with corrections (o,) of `OPTICS`; None without pictures
+    tables: tuple[Path, ...] = ()  # the files; if there are several, one for each sight
+    nominal: np.ndarray | None = None  # (n, 3) m, positions according to the controller
+    boards: tuple[str, ...] = ()  # names, if there are pictures
+    doubts: Sequence[str] = ()  # warnings about lenses, each without its full stop
+    # returns lens files by name, given corrections (o,) of `OPTICS`; None without pictures
     lens_files: Callable[[np.ndarray], Mapping[str, bytes]] | None = None
 
     def __len__(self) -> int:
@@ -39,13 +39,13 @@ class DataSet:
 
     @property
     def target_names(self) -> list[str]:
-        """The targets in a sentence: `target left` if a table names several."""
+        """Names of the targets for a sentence: `target left` if there are several."""
         plain = len(self.targets) == 1 or self.observations.optics is not None
         return [name if plain else f"target {name}" for name in self.targets]
 
     @property
     def sight_names(self) -> list[str]:
-        """The targets, each with its instrument if there are several instruments."""
+        """Names of the sights: each target, with its instrument if there are several."""
         if self.sights is None or len(self.instruments) == 1:
             return [*self.targets]
         pairs = self.sights.tolist()
@@ -53,7 +53,7 @@ class DataSet:
 
     @property
     def scaled(self) -> list[str]:
-        """Names of scales to check: boards, distances or all positions."""
+        """Names of the lengths whose scale is checked: boards, distances or all positions."""
         if self.observations.sockets is not None:
             pairs = [(self.sockets[a], self.sockets[b]) for a, b, *_ in self.observations.distances]
             return [f"the distance between {one} and {other}" for one, other in pairs]
@@ -61,14 +61,14 @@ class DataSet:
 
     @property
     def rows_of_sights(self) -> list[str]:
-        """The rows of each sight, counted from 1, in words."""
+        """For each sight, its range of rows, counted from 1, and its name."""
         ends = np.cumsum(np.bincount(self.observations.targets)).tolist()
         parts = zip([0, *ends[:-1]], ends, self.sight_names, strict=True)
         return [f"rows {before + 1} to {last}: {name}" for before, last, name in parts]
 
 
 def data_set(rows: Measurements, known: Description, arm: Arm) -> DataSet:
-    """The measurements of an arm. Raises InvalidFile: the description does not go with them."""
+    """The data set of measured rows. Raises InvalidFile if the description contradicts them."""
     assert rows.joints is not None
     targets, target_numbers = _numbered(rows.columns.get(TARGETS.name), len(rows), TARGET)
     sockets, socket_numbers = _numbered(rows.columns.get(SOCKETS.name), len(rows), ())
@@ -107,7 +107,7 @@ def data_set(rows: Measurements, known: Description, arm: Arm) -> DataSet:
 def _numbered(
     labels: np.ndarray | None, count: int, missing: tuple[str, ...]
 ) -> tuple[tuple[str, ...], np.ndarray]:
-    """The names among labels (n,), and the number (n,) of each label's name."""
+    """The distinct names among labels (n,), and the number (n,) of each label's name."""
     if labels is None:
         return missing, np.zeros(count, dtype=int)
     names, numbers = np.unique(labels, return_inverse=True)

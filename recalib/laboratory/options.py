@@ -10,7 +10,7 @@ from recalib.errors import InvalidQuantity, UnknownName
 from recalib.files.quantities import LENGTH
 from recalib.laboratory.tables.columns import MEASURED
 
-FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
+FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is mounted
 DONE, REFUSED, NO_BETTER = 0, 1, 3
 Kind = Callable[[str], object]
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no improvement."
@@ -20,7 +20,7 @@ CALIBRATION = "folder of calibrate, or its correction.npz"
 
 
 class Parser(argparse.ArgumentParser):
-    """Refuses as commands do: in one sentence, with the same exit code."""
+    """Reports errors as the commands do: in one sentence, with the same exit code."""
 
     def error(self, message: str) -> NoReturn:
         self.exit(REFUSED, f"recalib: {message}; try: {self.prog} --help\n")
@@ -28,13 +28,13 @@ class Parser(argparse.ArgumentParser):
     def add(
         self, name: str, text: str, kind: Kind = str, default: object = None, **more: Any
     ) -> None:
-        """An argument, or an option with its default."""
+        """Add an argument, or an option whose help shows its default."""
         shown = "" if default is None else f" (default: {default})"
         self.add_argument(name, type=kind, default=default, help=text + shown, **more)
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """The options on a command line; leaves with an exit code if there is a mistake."""
+    """Parse a command line; exit with a code if it has a mistake."""
     parser = Parser(
         prog="recalib", description="Recalibrate a robot arm from measurements.", epilog=EPILOGUE
     )
@@ -49,7 +49,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
             epilog=f"{epilog}{EPILOGUE}",
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        folder = not Path(out).suffix  # of its default
+        folder = not Path(out).suffix  # a default without a suffix names a folder
         own.set_defaults(folder=folder)
         own.add("--out", f"new {'folder' if folder else 'file'} to write", Path, out)
         return own
@@ -75,17 +75,17 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     for name, kind, default, text in (
         ("--poses", _path, None, "table of the flange's poses in the base"),
         ("--pictures", _path, None, "folder of the board's pictures, one for each pose"),
-        ("--targets", _path, None, "or: table of the target's poses in the camera"),
+        ("--targets", _path, None, "or table of the target's poses in the camera"),
         ("--board", _path, "board/board.toml", "description of the board (default: %(default)s)"),
         ("--lens", _path, None, "lens calibration (default: estimated)"),
-        ("--convention", str, None, f"of rotations: {WAYS}, or an order such as ZYZ or xyz"),
-        ("--target-convention", str, None, "likewise, of the target's poses"),
-        ("--height", str, None, "of the board, if the arm turns about one axis: '31 cm +- 1 mm'"),
+        ("--convention", str, None, f"notation of rotations: {WAYS}, or an order: ZYZ, xyz"),
+        ("--target-convention", str, None, "notation of the target's rotations"),
+        ("--height", str, None, "board height, if the arm turns about one axis: '31 cm +- 1 mm'"),
     ):
         group.add_argument(name, type=kind, default=default, help=text)
     group.add_argument("--camera", choices=CAMERAS, default=FIXED, help=where)
-    group.add_argument("--unit", choices=LENGTH.units, help="of positions without a unit")
-    text = "this table has the inverse poses: of the base in the flange, of the camera in it"
+    group.add_argument("--unit", choices=LENGTH.units, help="unit of positions, if not in headings")
+    text = "this table has the inverse poses: base in flange, or camera in target"
     group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
 
     text = "move, measure and calibrate until the predicted error is small enough"
@@ -104,16 +104,16 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add("--lens", "lens calibration (YAML), with --board", _path)
     own.add_argument("--camera", choices=CAMERAS, help=where)
     own.add_argument("--yes", action="store_true", help="move without asking")
-    own.add("--table", "new, or begun by live", _path, "measurements.csv")
+    own.add("--table", "table of rows: new, or begun by live", _path, "measurements.csv")
     add_arm(own)
 
     own = add("correct", "compute commands that reach the desired poses", "commands.csv")
     own.add("calibration", CALIBRATION, _path)
     own.add("desired", "desired poses or joint coordinates (CSV)", _path)
     text = (
-        "frame of the poses: a target in the instrument's frame, as measured, or the tool link in"
-        " the base, if [instrument] was given (default: instrument; of joints alone, and of balls"
-        " in sockets: base)"
+        "frame of the poses: instrument (poses of a target, as measured), or base (poses of the"
+        " tool link; needs [instrument] in the description); default: instrument; for joints"
+        " alone, and for balls in sockets: base"
     )
     own.add("--frame", text, choices=("base", "instrument"))
 
@@ -124,11 +124,11 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         "candidates", "postures to choose from (CSV; default: drawn at random)", _path, nargs="?"
     )
     own.add("--count", "number of postures", _positive, 10)
-    text = "propose flange poses, by a folder of calibrate --poses"
+    text = "propose flange poses, from a folder of calibrate --poses"
     own.add_argument("--poses", action="store_true", help=text)
     text = "with --poses: ranges of the flange's position: '-40 cm to 40 cm' ..."
     own.add("--box", text, nargs=3, metavar=("X", "Y", "Z"))
-    own.add("--cone", "with --poses: of lines of sight about the board's normal", str, "45 deg")
+    own.add("--cone", "with --poses: largest angle of view from the board's normal", str, "45 deg")
 
     own = add("urdf", "write a URDF from Denavit-Hartenberg parameters", "arm.urdf")
     own.add("links", "table (CSV): joint, a, alpha, d, theta, kind", _path)
@@ -153,7 +153,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 def _columns() -> str:
-    """The columns of a table of measurements, for `recalib calibrate --help`."""
+    """Text about the columns of a table of measurements, for `recalib calibrate --help`."""
     joint = "JOINT [deg]", "each joint by its name in the URDF, as the controller reports it"
     others = ((", ".join(columns.written), columns.meaning) for columns in MEASURED)
     lines = (f"  {headings:<48}{meaning}" for headings, meaning in (joint, *others))

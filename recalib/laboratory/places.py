@@ -1,9 +1,9 @@
-"""The frames of instruments, targets and sockets, and their uncertainty.
+"""The identified poses of instruments, targets and sockets, and their uncertainty.
 
 The uncertainty is given relative to the calibrated arm and relative to the real one. No measurement
-distinguishes an offset of the first joint from a rotation of the instrument about its axis. The
-calibrated arm has one of all solutions that fit: relative to it, the instrument's pose is as
-certain as its measurements. Relative to the real base, it is as uncertain as the offset's prior.
+distinguishes an offset of the first joint from a rotation of the instrument about that joint's
+axis. The calibrated arm is one of the solutions that fit. Relative to it, the instrument's pose is
+as certain as the measurements; relative to the real base, it is as uncertain as the offset's prior.
 """
 
 import shlex
@@ -22,7 +22,7 @@ from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.urdf.origins import angles_of
 
-STEP = 1e-4  # of a parameter's prior deviation, to either side
+STEP = 1e-4  # of central differences, as a fraction of a parameter's prior deviation
 
 
 @dataclass(frozen=True)
@@ -32,9 +32,9 @@ class Place:
     Deviations are standard deviations [m, rad] along the worst axis.
     """
 
-    name: str  # in words
-    link: str  # in whose frame the pose is
-    turned: bool  # whether the rotation is known
+    name: str  # such as "the instrument"
+    link: str  # the link in whose frame the pose is given
+    turned: bool  # whether the rotation is identified
     pose: np.ndarray  # (4, 4) m
     deviations: tuple[float, float]  # relative to the calibrated arm
     real_deviations: tuple[float, float]  # relative to the real arm
@@ -46,7 +46,7 @@ class Place:
 
     @property
     def degrees(self) -> np.ndarray:
-        """Roll, pitch and yaw (3,) [deg], as a URDF has them."""
+        """Roll, pitch and yaw (3,) [deg], as in a URDF."""
         return np.degrees(angles_of(self.pose))
 
     @property
@@ -55,12 +55,12 @@ class Place:
 
     @property
     def frame(self) -> str:
-        """The name as TOML and ROS take it."""
+        """The name in the spelling of TOML keys and ROS frames."""
         return self.name.removeprefix("the ").replace(" ", "_")
 
     @property
     def ros(self) -> str:
-        """The command of ROS 2 that publishes it."""
+        """The ROS 2 command that publishes this pose."""
         names = "x", "y", "z", "qx", "qy", "qz", "qw"
         numbers = zip(names, [*self.position, *self.rotation.as_quat(canonical=True)], strict=True)
         given = " ".join(f"--{name} {number:.7f}" for name, number in numbers)
@@ -69,7 +69,7 @@ class Place:
 
     @property
     def urdf(self) -> str:
-        """A fixed joint."""
+        """The pose as a fixed joint."""
         ends = self.position, np.radians(self.degrees)
         xyz, rpy = (" ".join(f"{number:.7f}" for number in numbers) for numbers in ends)
         return (
@@ -81,12 +81,12 @@ class Place:
 def found_places(
     calibration: Calibration, unidentifiable: Sequence[Unidentifiable], data: DataSet, tool: str
 ) -> list[Place]:
-    """The estimated places.
+    """The identified places.
 
     Args:
         unidentifiable: see `unidentifiable_parameters`.
-        data: with the names of instruments, targets and sockets.
-        tool: the link that is the tool of the calibrated arm.
+        data: names the instruments, targets and sockets.
+        tool: the tool link of the calibrated arm.
     """
     model, estimate = calibration.model, calibration.estimate
     frames, base, free = model.frames, model.nominal.base, np.flatnonzero(model.free)
@@ -97,21 +97,21 @@ def found_places(
     if not what:
         return []
     lasting = np.array([one.parameter for one in unidentifiable if one.lasting], dtype=int)
-    chosen = np.setdiff1d(lasting, free)
+    fixed = np.setdiff1d(lasting, free)
     real = estimate.covariance[np.ix_(free, free)]
-    across = estimate.covariance[np.ix_(free, chosen)]
-    among = estimate.covariance[np.ix_(chosen, chosen)]
-    own = real - across @ np.linalg.solve(among, across.T)
+    across = estimate.covariance[np.ix_(free, fixed)]
+    among = estimate.covariance[np.ix_(fixed, fixed)]
+    conditional = real - across @ np.linalg.solve(among, across.T)
     slopes = _slopes(model, estimate.parameters, free)
     poses = _poses(model, estimate.parameters)
     return [
-        Place(*one, pose, *(worst_axes(slope @ spread @ slope.T) for spread in (own, real)))
+        Place(*one, pose, *(worst_axes(slope @ cov @ slope.T) for cov in (conditional, real)))
         for one, pose, slope in zip(what, poses, slopes, strict=True)
     ]
 
 
 def hand_eye_places(found: HandEye, names: Sequence[str], links: Sequence[str]) -> list[Place]:
-    """A camera and a board by their names, in the links' frames, by a hand-eye calibration."""
+    """The places of camera and board from a hand-eye calibration, in the frames of two links."""
     pairs = zip(names, links, (found.camera, found.board), strict=True)
     return [
         Place(name, link, True, pose, *[found.deviations(part)] * 2)
@@ -120,12 +120,12 @@ def hand_eye_places(found: HandEye, names: Sequence[str], links: Sequence[str]) 
 
 
 def _has_instrument(frames: Frames) -> bool:
-    """Whether the instrument's pose is identified; a ball in sockets has none."""
+    """Whether the instrument's pose is identified; a ball in sockets needs no instrument."""
     return frames.base_unknown and not len(frames.sockets)
 
 
 def _poses(model: ErrorModel, parameters: np.ndarray) -> np.ndarray:
-    """Poses (place, 4, 4) [m] of everything that was not given."""
+    """Poses (place, 4, 4) [m] of all instruments, targets and sockets that were not given."""
     frames = model.found(parameters)
     poses = [*np.linalg.inv(frames.bases)] * _has_instrument(frames)
     poses += [*frames.targets] * frames.targets_unknown
@@ -136,7 +136,7 @@ def _poses(model: ErrorModel, parameters: np.ndarray) -> np.ndarray:
 
 
 def _slopes(model: ErrorModel, parameters: np.ndarray, free: np.ndarray) -> np.ndarray:
-    """How the places move (place, 6, free) [m, rad] with the parameters of frames."""
+    """Derivatives (place, 6, free) [m, rad] of the places by the free parameters of frames."""
     columns = []
     for number in free:
         step = np.zeros_like(parameters)

@@ -1,8 +1,8 @@
 """The most informative postures to measure next, and whether more are worthwhile.
 
 Candidates come from the user, or are drawn from the measured range of joints and a little beyond.
-There the instrument saw the target and nothing was hit, which joint limits do not promise. Postures
-near the ends of joint ranges are left out.
+In this range, the instrument saw the target and the arm hit nothing; joint limits ensure neither.
+Postures near the ends of joint ranges are left out.
 """
 
 from dataclasses import replace
@@ -17,27 +17,27 @@ from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 from recalib.spelling import counted
 
-DRAWN = 400  # candidates
-BEYOND = 0.1  # of the measured range, on either side
-OUTERMOST = 0.05  # of a joint's range at either end, where joints behave otherwise
+DRAWN = 400  # candidates drawn at random
+BEYOND = 0.1  # of the measured range, added at either end
+OUTERMOST = 0.05  # of a joint's range, left out at either end, where joints behave differently
 PROBES = 200  # postures at which the uncertainty is computed
 
 
 def propose(
     correction: Correction, count: int, candidates: np.ndarray | Goals | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The most informative postures to measure, each given those before it.
+    """The most informative postures to measure, each chosen given those before it.
 
-    Returns their joints (n, columns) [rad, or m where one slides], as the controller reports them,
-    and the mean deviation (n + 1,) [m] of predicted positions before and after each.
+    Returns their joints (n, columns) [rad, or m for sliding joints], as the controller reports
+    them, and the mean deviation (n + 1,) [m] of predicted positions before and after each.
 
     Args:
-        count: how many.
+        count: number of postures.
         candidates: joint coordinates (n, columns), or poses of the tool in the arm's base (default:
             drawn at random). Those out of reach or near the end of a joint's range are left out.
 
-    Raises InvalidSetting if they would have to be drawn for a ball in sockets, and RecalibError if
-    none is left.
+    Raises InvalidSetting if a ball in sockets was measured and no candidates are given, and
+    RecalibError if no candidate can be used.
     """
     if candidates is not None:
         postures = _useful(correction, candidates)
@@ -49,7 +49,7 @@ def propose(
     probes = coupling.joints(_drawn(correction)[:PROBES])
 
     def uncertainty(covariance: np.ndarray) -> float:
-        """The mean deviation [m] of predicted positions, by the covariance of the parameters."""
+        """Mean deviation [m] of predicted positions, given the covariance of the parameters."""
         estimate = replace(calibration.estimate, covariance=covariance)
         spread = replace(calibration, estimate=estimate).position_covariances(probes, False)
         return float(np.sqrt(np.trace(spread, axis1=1, axis2=2)).mean())
@@ -69,14 +69,14 @@ def _drawn(correction: Correction) -> np.ndarray:
 
 
 def joint_limits(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
-    """Lower and upper (columns,) [rad, m] of an arm, without the outermost parts of ranges."""
+    """Lower and upper joint limits (columns,) [rad, m], without the outermost parts of ranges."""
     lower, upper = arm.coupling.limits
     margin = np.where(np.isfinite(upper - lower), OUTERMOST * (upper - lower), 0.0)
     return lower + margin, upper - margin
 
 
 def _useful(correction: Correction, candidates: np.ndarray | Goals) -> np.ndarray:
-    """Candidates (n, columns) within reach, and off the ends of joint ranges."""
+    """Joints (n, columns) of candidates within reach and away from the ends of joint ranges."""
     if isinstance(candidates, Goals):
         found, _, reached = reach(correction.calibration, correction.postures, candidates)
     else:

@@ -1,4 +1,4 @@
-"""Inverse kinematics of a calibrated arm, from postures in which it was measured."""
+"""Inverse kinematics of a calibrated arm, started from measured postures."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -20,11 +20,11 @@ from recalib.spelling import listed
 
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
-STARTS = 6  # learned postures to start from, if none is given
+STARTS = 6  # measured postures to start from, if none is given
 
 
 class NotReached(RecalibError):
-    """Desired poses that the arm cannot reach. Attributes: rows, counted from 1."""
+    """The arm cannot reach some desired poses. Attributes: rows, counted from 1."""
 
     def __init__(self, rows: Sequence[int], reason: str):
         self.rows = [*rows]
@@ -37,12 +37,12 @@ class Goals:
     """Desired poses: of targets in the instrument's frame, or of the tool link in the base."""
 
     poses: np.ndarray  # (n, 4, 4), or positions (n, 3) [m]
-    postures: np.ndarray | None = None  # (n, columns) rad, m to stay near to; None if any will do
-    targets: np.ndarray | None = None  # (n,) their numbers; None: of the tool link
+    postures: np.ndarray | None = None  # (n, columns) rad, m to stay near to; None: no preference
+    targets: np.ndarray | None = None  # (n,) numbers of targets; None for the tool link
 
     @classmethod
     def of(cls, poses: ArrayLike, near: ArrayLike | None, coupling: Coupling) -> "Goals":
-        """From one pose or many. Raises InvalidSetting: other shapes, no poses, other units."""
+        """Goals from one pose or many. Raises InvalidSetting: wrong shape, rotation or unit."""
         shapes = ("n", 4, 4), (4, 4), ("n", 3), (3,)
         given = array_of("poses", poses, *shapes)
         if given.shape[-2:] == (4, 4):
@@ -69,7 +69,7 @@ class Goals:
         return self.poses if self.poses.ndim == 2 else self.poses[:, :3, 3]
 
     def reachable(self, arm: Arm) -> "Goals":
-        """What an arm reaches: of poses, with fewer than six joints, positions."""
+        """The goals that an arm can reach: only positions if it has fewer than six joints."""
         few = len(arm.coupling.columns) < 6
         return replace(self, poses=self.positions) if few else self
 
@@ -77,7 +77,7 @@ class Goals:
 def poses_at(
     calibration: Calibration, joints: np.ndarray, targets: np.ndarray | int | None
 ) -> np.ndarray:
-    """Poses (n, 4, 4) [m] at joints (n, columns) of targets, by their numbers, or of the tool."""
+    """Poses (n, 4, 4) [m] of targets (numbers), or of the tool (None), at joints (n, columns)."""
     every = calibration.model.nominal.coupling.joints(joints)
     if targets is None:
         return calibration.forward(every)
@@ -87,10 +87,10 @@ def poses_at(
 def reach(
     calibration: Calibration, learned: np.ndarray, goals: Goals
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """From each start in turn, until a goal is reached within the arm's limits.
+    """Solve for joints from each start in turn, until every goal is reached within joint limits.
 
-    Goals without postures start from learned ones (n, columns) [rad, m]. Returns the best joints
-    (n, columns) [rad, m], the errors (n,) [m or rad] that are left, and which goals are reached.
+    Without given postures, the starts are learned ones (n, columns) [rad, m]. Returns the best
+    joints (n, columns) [rad, m], their errors (n,) [m or rad], and whether each goal is reached.
     """
     arm, simple = calibration.model.nominal, goals.reachable(calibration.model.nominal)
     starts = _nearest(calibration, learned, goals) if goals.postures is None else [goals.postures]
@@ -102,7 +102,7 @@ def reach(
         if not len(rows):
             break
         begin = start[rows]
-        if goals.poses.ndim > simple.poses.ndim:  # the least error of a pose, then its position
+        if goals.poses.ndim > simple.poses.ndim:  # first the whole pose, then its position alone
             begin, _ = _newton(calibration, goals[rows], begin)
         tried, remaining = _newton(calibration, simple[rows], begin)
         within = ((tried >= lower) & (tried <= upper)).all(axis=1) & (remaining <= TOLERANCE)
@@ -132,7 +132,7 @@ def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np
 
 
 def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> list[np.ndarray]:
-    """Learned postures (n, joints) near goals, the nearest first."""
+    """For each start, learned postures (n, joints) near the goals; the nearest come first."""
     count, dimensions = min(STARTS, len(learned)), goals.poses.ndim
     found = np.empty((count, len(goals), learned.shape[1]))
     for target, rows in by_sight(goals.targets, len(goals)):
@@ -144,7 +144,7 @@ def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> lis
 
 
 def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
-    """Positions (n, 3), and with three dimensions the axes (n, 12), of which a turn moves two."""
+    """Positions (n, 3), or with 3 dimensions also scaled axes (n, 12): a turn moves two axes."""
     if poses.ndim == 2:
         return poses
     places = poses[:, :3, 3]
@@ -157,7 +157,7 @@ def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
 def _newton(
     calibration: Calibration, goals: Goals, start: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Steps of least norm, for each goal by itself: redundant joints stay near the start."""
+    """Newton steps of least norm, for each goal by itself: redundant joints stay near the start."""
     coupling = calibration.model.nominal.coupling
 
     def kinematics(rows: np.ndarray, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

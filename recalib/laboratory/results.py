@@ -1,4 +1,4 @@
-"""A calibrated arm, its measurements, and what follows from both."""
+"""A calibrated arm, its measurements, and the results derived from both."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -30,11 +30,11 @@ from recalib.nominal.descriptions import UrdfFile
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
 
-HARDLY = 0.5  # of a prior deviation: data that reduce it by less have not decided
+HARDLY = 0.5  # of a prior deviation: above it, the prior decides a parameter, not the data
 
 
 def without_shift(found: Sequence[Fault], mistake: str | None) -> list[Fault]:
-    """Faults without the lag if a mistake names it already: rows that are shifted by one."""
+    """Faults without a lag if the mistake, joints shifted by a row, already explains it."""
     shifted = mistake is not None and mistake.startswith(SHIFTED)
     return [fault for fault in found if not (shifted and fault.kind == LAG)]
 
@@ -45,20 +45,20 @@ class Results:
 
     urdf: UrdfFile | None  # of the nominal arm; None if there is none
     data: DataSet
-    frames: Frames  # from which the identification started
-    validation: Validation  # held-out errors, and the choice by them
-    # of boards, distances between sockets or all positions, if links are as long as nominal ones
+    frames: Frames  # the initial estimates
+    validation: Validation  # held-out errors, and the correction chosen by them
+    # scales of boards, distances between sockets or all positions, if nominal links are right
     scales: Mapping[str, Scale]
-    mistake: str | None  # the likely one in the rows, in words; see `mistake_in`
-    offset: str | None  # of nominal positions in the rows from nominal kinematics, in words
+    mistake: str | None  # the likely mistake in the rows, in words; see `mistake_in`
+    offset: str | None  # between the controller's positions and the URDF's kinematics, in words
 
     def predict(self, joints: ArrayLike, target: str | None = None) -> np.ndarray:
-        """Poses (n, 4, 4) [m] of a target in the instrument's frame: what it should measure.
+        """Predicted measurements: poses (n, 4, 4) [m] of a target in the instrument's frame.
 
-        Or one (4, 4) of one posture. If only positions were measured, the rotations are nominal.
+        One posture gives one pose (4, 4). If only positions were measured, rotations are nominal.
 
         Args:
-            joints: (n, joints) or (joints,) rad, or m where a joint slides.
+            joints: (n, joints) or (joints,) rad, or m for sliding joints.
             target: the name of the target (default: the first).
 
         Raises InvalidSetting (another shape), UnknownName.
@@ -89,7 +89,7 @@ class Results:
 
     @property
     def worthwhile(self) -> bool:
-        """Whether correcting is better than doing nothing."""
+        """Whether some correction has a smaller held-out error than none."""
         return self.validation.chosen != NOTHING
 
     @property
@@ -99,19 +99,19 @@ class Results:
 
     @property
     def calibration(self) -> Calibration:
-        """The calibration with the smallest errors on rows that were not learned from."""
+        """The calibration with the smallest errors on held-out rows."""
         return self.validation.calibration
 
     @property
     def correction(self) -> Correction:
-        """Corrects commands; can be saved in a file."""
+        """The correction of commands, which can be saved in a file."""
         urdf = b"" if self.urdf is None else self.urdf.content
         names = tuple(self.data.sight_names)
         return Correction(urdf, self.calibration, self.data.observations.joints, names)
 
     @cached_property
     def corrected(self) -> tuple[bytes, str]:
-        """The URDF with corrected geometry, and the link that is the tool there.
+        """The URDF with corrected geometry, and the name of its tool link.
 
         Raises InvalidSetting without a URDF.
         """
@@ -126,25 +126,25 @@ class Results:
         by_geometry = found_places(self.geometry, self.unidentifiable, self.data, tool)
         if self.worthwhile:
             return by_geometry
-        # an arm that looks right may still have an offset that is not identifiable
+        # even if the nominal arm fits, it may have an offset that is not identifiable
         by_nominal = found_places(self.calibration, [], self.data, self.arm.tool)
         pairs = zip(by_nominal, by_geometry, strict=True)
         return [replace(one, real_deviations=other.real_deviations) for one, other in pairs]
 
     @cached_property
     def unidentifiable(self) -> list[Unidentifiable]:
-        """The parameters of geometry that are not identifiable."""
+        """The geometric parameters that are not identifiable."""
         return unidentifiable_parameters(self.geometry, self.data.observations)
 
     @cached_property
     def parameters(self) -> list[Parameter]:
-        """All parameters of geometry, in the order of the error model."""
+        """All geometric parameters, in the order of the error model."""
         names = self.data.targets, self.data.sockets, self.data.instruments
         return parameters_of(self.geometry.model, self.geometry.estimate, *names)
 
     @property
     def directions(self) -> list[tuple[Unidentifiable, str]]:
-        """Parameters of geometry that are not identifiable, each with its partners in words."""
+        """Unidentifiable geometric parameters, each with its name and those of its partners."""
         names = [parameter.name for parameter in self.parameters]
         return [
             (one, listed((names[number] for number in (one.parameter, *one.partners)), "or"))
@@ -153,14 +153,14 @@ class Results:
 
     @property
     def identified(self) -> list[dict[str, Any]]:
-        """The parameters: name, unit, value, deviation, and `decided_by` data or prior."""
-        # not by a small deviation: the prior of what explains nothing becomes narrow
+        """Geometric parameters: name, unit, value, deviation, and `decided_by` data or prior."""
+        # a small deviation proves nothing: the prior of a useless parameter becomes narrow, too
         model = self.geometry.model
         by_prior = model.deviations <= HELD
         by_prior[[one.parameter for one in self.unidentifiable]] = True
         optics = model.optics_columns
-        known = np.sqrt(np.diag(self.geometry.estimate.covariance)[optics])
-        by_prior[optics] = known > HARDLY * model.deviations[optics]
+        deviations = np.sqrt(np.diag(self.geometry.estimate.covariance)[optics])
+        by_prior[optics] = deviations > HARDLY * model.deviations[optics]
         return [
             vars(parameter) | {"decided_by": "prior" if prior else "data"}
             for parameter, prior in zip(self.parameters, by_prior, strict=True)
@@ -168,17 +168,17 @@ class Results:
 
     @cached_property
     def unseen(self) -> int:
-        """How many directions of the geometry no row shows, though other postures would."""
+        """Number of directions of the geometry that other postures would show, but no row does."""
         return Unseen(self.geometry.model, self.data.observations).directions.shape[1]
 
     @cached_property
     def mistaken(self) -> str | None:
-        """What is likely wrong with outliers, in words."""
+        """The mistake that likely explains the outliers, in words."""
         return mistake_of_outliers(self.geometry, self.data.observations)
 
     @cached_property
     def faults(self) -> list[Fault]:
-        """What the order of the rows shows: a lag, a drift, a jump; unless rows are mistaken."""
+        """Faults that the order of the rows shows, such as a drift; none if a mistake is likely."""
         if self.mistaken:
             return []
         return without_shift(faults(self.geometry, self.data.observations), self.mistake)
@@ -190,43 +190,43 @@ class Results:
 
     @cached_property
     def displaced(self) -> list[Displaced]:
-        """Runs of outliers that are off alike; unless rows are mistaken."""
+        """Runs of outliers with the same displacement; none if a mistake is likely."""
         return [] if self.mistaken else displaced(self.geometry, self.data.observations)
 
     @cached_property
     def wrong_gain(self) -> WrongGain | None:
-        """A joint that does not turn as its column says."""
+        """A joint that moves more or less than its column says."""
         return wrong_gain(self.geometry, self.data.observations)
 
     @property
     def counted(self) -> np.ndarray:
-        """Numbers (from 0) of the rows whose errors count."""
+        """Indices (from 0) of the rows whose errors count."""
         return np.flatnonzero(self.validation.judged(BLOCKWISE))
 
     @property
     def doubted(self) -> np.ndarray:
-        """Numbers (from 1) of the rows that are outliers, with almost no weight."""
+        """Numbers (from 1) of outliers: rows with almost no weight."""
         unlikely = self.geometry.estimate.weights < DOUBTFUL
         return np.flatnonzero(unlikely | ~self.validation.counted) + 1
 
     @property
     def positions(self) -> np.ndarray:
-        """Predicted positions (n, 3) [m] of the targets in the arm's base, of rows that count."""
+        """Predicted positions (n, 3) [m] of targets in the arm's base, for the rows that count."""
         rows = self.data.observations[self.counted]
         poses = self.calibration.predict(rows.joints, rows.targets)
         return (np.linalg.inv(self._bases) @ poses)[:, :3, 3]
 
     @property
     def _bases(self) -> np.ndarray:
-        """The arm's base in the instrument's frame (n, 4, 4) [m], of each row that counts."""
+        """Poses (n, 4, 4) [m] of the arm's base in the instrument, for the rows that count."""
         frames = self.calibration.frames
         return frames.bases[frames.sights[self.data.observations.targets[self.counted], 0]]
 
     @property
     def residuals(self) -> dict[str, np.ndarray]:
-        """Of the rows that count, before and, if it is worthwhile, after; held out in blocks.
+        """Held-out residuals (in blocks) of the rows that count, before and after correction.
 
-        (n, 3) m, or (n, 6) m and rad, along the axes of the arm's base.
+        (n, 3) m, or (n, 6) m and rad, along the axes of the arm's base. No `after` without benefit.
         """
         kinds = {"before": NOTHING} | ({"after": self.validation.chosen} if self.worthwhile else {})
         held_out, turns = self.validation.held_out[BLOCKWISE], self._bases[:, :3, :3]

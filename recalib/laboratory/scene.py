@@ -1,4 +1,4 @@
-"""An arm in the Rerun viewer: its meshes, and where its links are."""
+"""An arm in the Rerun viewer: the meshes and the poses of its links."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.meshes import with_own_meshes
 
-WORLD = "tf#/"  # the frame that Rerun gives to the root of the entities
+WORLD = "tf#/"  # Rerun's frame of the root entity
 ARM, ROW = "arm", "row"
 THICK, GREY = 0.003, (120, 120, 120)  # m
 
@@ -21,10 +21,10 @@ THICK, GREY = 0.003, (120, 120, 120)  # m
 def log_meshes(
     rec: rr.RecordingStream, source: bytes, urdf: Path, prefix: str
 ) -> tuple[dict[str, list[str]], list[str]]:
-    """Log the visual meshes in the content of a URDF, each in its link's frame `<prefix>/<link>`.
+    """Log the visual meshes of a URDF, given its content, in the links' frames `<prefix>/<link>`.
 
-    Returns their entities by link, links without any left out; and the names of the meshes that
-    are in none of the URDF's packages and folders.
+    Returns the entities of each link that has any, and the names of the meshes that are in none of
+    the URDF's packages and folders.
     """
     text, missing = with_own_meshes(source, urdf)
     with TemporaryDirectory() as folder:
@@ -43,7 +43,7 @@ def log_meshes(
 def send_frame(
     rec: rr.RecordingStream, entity: str, frame: str, clock: list[rr.TimeColumn], poses: np.ndarray
 ) -> None:
-    """Move a frame to poses (n, 4, 4) [m] in the world, at the times of the clock."""
+    """Send the poses (n, 4, 4) [m] of a frame in the world, at the times of the clock."""
     transforms = rr.Transform3D.columns(
         translation=poses[:, :3, 3],
         quaternion=Rotation.from_matrix(poses[:, :3, :3]).as_quat(),
@@ -60,9 +60,9 @@ def send_arm(
     clock: list[rr.TimeColumn],
     joints: np.ndarray,
 ) -> None:
-    """Move the links that `log_meshes` found by joints (n, joints) [rad, m]; a line along the arm.
+    """Send the poses of links from `log_meshes` at joints (n, joints) [rad, m].
 
-    The line is all there is where meshes are missing.
+    Also sends a line along the arm, which shows the arm even if meshes are missing.
     """
     for link, poses in link_placements(arm, visuals, joints).items():
         send_frame(rec, f"{ARM}/{link}", f"{ARM}/{link}", clock, poses)
@@ -79,7 +79,8 @@ def link_placements(
 ) -> dict[str, np.ndarray]:
     """Placements (n, 4, 4) [m] of links in the world at joint angles (n, joint) [rad].
 
-    The arm's joints include a shift of the robot's base; links before the first joint do not.
+    The arm's joints already include a shift of the robot's base; links before the first joint do
+    not, and are shifted by `base`.
     """
     model, data, base = arm.model, arm.model.createData(), base or pin.SE3.Identity()
     frames = {link: model.getFrameId(link, pin.FrameType.BODY) for link in links}

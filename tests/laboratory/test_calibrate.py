@@ -116,14 +116,14 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=1e-3)
     assert result.worthwhile and result.data.sockets == ("left", "right")
     text = summary(result)
-    assert "errors are those in the sockets" in text and "the instrument" not in text
+    assert "errors are measured in the sockets" in text and "the instrument" not in text
     assert [place.name for place in result.places] == ["the target", "socket left", "socket right"]
     names = [row["name"] for row in result.identified]
     assert "x of socket left, from its initial estimate" in names and "socket 1" not in str(names)
     with pytest.raises(InvalidSetting, match="candidates is missing; expected: postures in which"):
         propose(result.correction, 3)
     assert result.correction.unidentifiable_ends == "the arm's base and the tool link"
-    with pytest.raises(InvalidSetting, match="base: a ball in sockets had no instrument"):
+    with pytest.raises(InvalidSetting, match="base: balls in sockets need no instrument"):
         result.correct(np.zeros(3), frame="instrument")
 
 

@@ -71,8 +71,8 @@ def test_commands_take_the_calibrated_arm_to_what_is_desired(calibrated, arm, fo
     printed = capsys.readouterr()
     assert "leave the measured range" not in printed.err
     assert printed.out == (
-        f"10 commands in {out}: joint coordinates, and the poses that\n"
-        "the nominal kinematics give them, of link_4 in base\n"
+        f"10 commands in {out}: joint coordinates, and at them\n"
+        "the poses of link_4 in base by the nominal kinematics\n"
     )
 
     again = folder / "twice.csv"

@@ -237,7 +237,7 @@ STOPPED = {  # by the message, what a station does
             cells if measured(station) < 4 else cells | {"heat": 20.0}
         )
     },
-    "is invalid: no positions are measured in it; expected: x, y and z": {
+    "is invalid: it has no measured positions; expected: x, y and z": {
         "measured": lambda station, cells: {"picture": "000.png"}
     },
     "in row 1. the target was measured .* mm from its prediction by the .* rows before": {
@@ -366,7 +366,7 @@ def test_a_torn_row_is_dropped_and_nothing_else(tmp_path, monkeypatch):
         table.write_bytes(whole[:cut])
         end = run(Simulated(), tmp_path, few(2 - max(0, whole[:cut].count(b"\n") - 1)),
                     lines.append)  # fmt: skip
-        assert "a row without its end was dropped: " in "".join(lines) and end.rows in (2, 3)
+        assert "an incomplete row was dropped: " in "".join(lines) and end.rows in (2, 3)
         assert whole.startswith(table.read_bytes())
         table.write_bytes(whole)
     write = os.write

@@ -252,7 +252,7 @@ def test_a_bad_table_is_refused(text, message, tmp_path, monkeypatch, capsys):
 
 def test_decimal_commas_and_numbers_too_many_are_named(tmp_path):
     (path := tmp_path / "poses.txt").write_text("1,5 " * 7)
-    with pytest.raises(InvalidFile, match="it has 14 numbers .*; has it decimal commas?"):
+    with pytest.raises(InvalidFile, match="it has 14 numbers .*; does it have decimal commas?"):
         read_poses(path, "ros")
     path.write_text("1 0 0 0 1 0 0\n2 0 0 0 1 0 0")  # the time is ahead
     assert len(read_poses(path, "ur")) == 2
@@ -327,7 +327,7 @@ def tenfold(poses: np.ndarray) -> np.ndarray:
     return scaled(10.0)(poses)
 
 
-INVERSE = "the flange's poses are those of the base in it"
+INVERSE = "the flange's poses are those of the base in the flange"
 MOVING = "angles about the moving axes z, y, x"
 FAULTS = {
     "one axis": Fault("all turns are about one axis", about_one_axis),
@@ -341,7 +341,7 @@ FAULTS = {
     "direction": Fault(INVERSE, change=np.linalg.inv),
     "direction of the flange": Fault(INVERSE, options=("--inverse", "flange")),
     "direction of the targets": Fault(
-        "the target's are those of the camera in it", options=("--inverse", "targets")
+        "the target's are those of the camera in the target", options=("--inverse", "targets")
     ),
     "other axes": Fault(MOVING, options=("--convention", "XYZ"), way="kuka"),
     "fixed axes": Fault(f"{MOVING} (--convention)", options=("--convention", "fanuc"), way="kuka"),
@@ -403,7 +403,7 @@ def test_a_camera_that_jumped_is_told_first(tmp_path, monkeypatch, capsys):
     (tmp_path / "poses.txt").write_text(written(cell.reported(flange)))
     (tmp_path / "targets.txt").write_text(written(poses))
     assert calibrate() != REFUSED
-    words = "between rows 12 and 13 camera or base seem to have moved by 60 mm"
+    words = "between rows 12 and 13, the camera or the base seems to have moved by 60 mm"
     assert capsys.readouterr().out.partition("Careful: ")[2].startswith(words)
 
 
@@ -441,7 +441,7 @@ def test_four_axes_need_a_height(in_hand, tables, tmp_path, capsys):
 def test_a_height_that_contradicts_the_poses_is_named(tables, capsys):
     tables(HandEyeCell(4, True))
     assert calibrate("--height", "400 mm +- 1 mm", camera="hand") == REFUSED
-    assert "without --height, which they determine" in capsys.readouterr().err
+    assert "without --height; they determine" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("in_hand", [False, True])
@@ -474,7 +474,7 @@ def test_pictures(in_hand, tmp_path, monkeypatch, capsys):
     inputs = ["--poses", "poses.txt", "--convention", "kuka", "--pictures", "pictures"]
     where = ["--board", "board.toml", "--camera", SIDES[in_hand], "--out", "out"]
     assert main(["calibrate", *inputs, *where]) == DONE
-    assert "Corners in pictures that were not learned from are" in capsys.readouterr().out
+    assert "Corners in held-out pictures are off by" in capsys.readouterr().out
     result = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())
     length, angle = (float(text.split()[0]) for text in result["camera"]["deviation"])
     stated = np.array([1e-3 * length, np.radians(angle)])

@@ -185,8 +185,8 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
     [
         (Cell(SEED, True), ("eye", SHIFT), 1.0, 0.0, "the camera seems to have slipped on the too"),
         (Cell(SEED), ("sheet", TURN), None, 0.2, "the board seems to have slipped on the tool"),
-        (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "camera or base seem to have moved"),
-        (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "board or base seem to have moved"),
+        (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "the camera or the base seems to have moved"),
+        (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "the board or the base seems to have moved"),
     ],
 )
 def test_what_slips_in_a_session_is_named_in_the_first_lines(
@@ -198,7 +198,7 @@ def test_what_slips_in_a_session_is_named_in_the_first_lines(
     assert size is None or 1e3 * fault.size == pytest.approx(size, rel=0.25)
     assert np.degrees(fault.turn) == pytest.approx(turn, abs=0.05)
     first = summary(result).splitlines()[1]
-    assert f"Careful: between rows {PICTURES} and {PICTURES + 1} {message}" in first
+    assert f"Careful: between rows {PICTURES} and {PICTURES + 1}, {message}" in first
 
 
 @pytest.mark.parametrize("both", [False, True], ids=["pictures of one", "pictures of both"])
@@ -217,14 +217,14 @@ def test_a_camera_on_the_hand_that_slips_beside_a_fixed_one_is_named(tmp_path):
     left = write_session(tmp_path / "left", Cell(SEED), "left", "tool")
     hand = write_session(tmp_path / "hand", on_the_hand(), "hand", "table", ("eye", TURN))
     text = verdict(calibrated(left, hand))
-    assert f"Careful: in {hand}, between rows 15 and 16 camera hand seems to have slipped" in text
+    assert f"Careful: in {hand}, between rows 15 and 16, camera hand seems to have slipped" in text
 
 
 def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
     moved = changed(1, sheet=Cell(SEED).sheet @ frame([0, 0, 0], [0.003, 0, 0]))
     folders = beside_left(tmp_path, moved)
     text = verdict(calibrated(*folders))
-    assert f"in {folders[1]}, before row 1 the board seems to have slipped on the tool by 3" in text
+    assert f"{folders[1]}, before row 1, the board seems to have slipped on the tool by 3" in text
     assert "try each folder by itself" in text
 
 
@@ -240,7 +240,7 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
         ((on_the_hand(), "right"), "its board 'board' differs from that in "),
         ((changed(1, board=SMALL), "right"), "its board 'board' differs from that in "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
-        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from its place by"),
+        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from its place in"),
         ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
     ],
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],

@@ -1,4 +1,4 @@
-"""Hand-eye calibration from flange poses and pictures or poses of a board, and its files."""
+"""Hand-eye calibration from flange poses and pictures or poses of a board; output files."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -33,7 +33,7 @@ from recalib.vision.lens_search import moved_lens
 from recalib.vision.views import optics_of, sighting
 
 HAND_EYE, POSES = "hand_eye.toml", "poses.csv"
-MOST = 1 / 3  # of the poses: if more are outliers, nothing is certain
+MOST = 1 / 3  # of the poses: if more are outliers, the result cannot be trusted
 
 
 def pictures_at(
@@ -44,9 +44,9 @@ def pictures_at(
     in_hand: bool,
     progress: Progress,
 ) -> Observed:
-    """The board in pictures that were taken at poses of a flange. Raises as `observe`.
+    """The board in pictures that were taken at flange poses. Raises like `observe`.
 
-    If the table has no column `picture`, its rows are in the order of the pictures' names.
+    Without a column `picture`, the rows of the table follow the order of the pictures' names.
     """
     table = flange.table
     if PICTURE not in table:
@@ -65,14 +65,14 @@ def calibrate_poses(
     height: tuple[float, float] | None,
     on_progress: Progress,
 ) -> tuple[dict[str, bytes], bool]:
-    """Where camera and board are: all files by their names, and whether most of the poses fit.
+    """Calibrate the poses of camera and board: all files by name, and whether most poses fit.
 
     Args:
-        flange: its poses in the base.
-        shown: of the board, by pictures, or its poses in the camera, row by row.
-        height: m, and its standard deviation; see `Sights`.
+        flange: poses of the flange in the base.
+        shown: pictures of the board, or poses of the target in the camera; row by row.
+        height: m, the board's height and its standard deviation; see `Sights`.
 
-    Raises RecalibError: poses that do not determine it, or are likely mistaken.
+    Raises RecalibError if the poses do not determine the result, or are likely mistaken.
     """
     pictures = targets = doubt = None
     if isinstance(shown, PoseTable):
@@ -80,10 +80,10 @@ def calibrate_poses(
         if len(flange) != len(targets):
             valid = f"expected: {len(flange)}, as in {flange.table.path.name}"
             raise InvalidFile(targets.table.path, f"it has {counted(len(targets), 'row')}; {valid}")
-        own = {f"{name} of the flange": cells for name, cells in flange.table.cells.items()}
-        check_copies(replace(targets.table, cells={**own, **targets.table.cells}))
+        flanges = {f"{name} of the flange": cells for name, cells in flange.table.cells.items()}
+        check_copies(replace(targets.table, cells={**flanges, **targets.table.cells}))
     else:
-        doubt = shown.doubt  # first, so that poses are not blamed for a lens
+        doubt = shown.doubt  # checked first, so that a wrong lens does not look like wrong poses
         pictures, by_lens = shown, (shown.given is None, False)
         flange = flange[np.array([picture.row - 1 for picture in shown.used])]
         views = [view for _, view in views_of(shown.board, shown.used)]
@@ -100,8 +100,8 @@ def calibrate_poses(
     check_motion(sights)
     on_progress("camera and board")
     found = calibrate_hand_eye(sights)
-    faults, still = moved_ends(found)
-    check_fit(still, flange, targets)
+    faults, corrected = moved_ends(found)
+    check_fit(corrected, flange, targets)
     on_progress("errors of poses that are held out")
     good = found.misfit <= WRONG and len(found.outliers) / len(flange) <= MOST
     doubts = [*_doubts(found, pictures, faults, doubt)]
@@ -111,25 +111,25 @@ def calibrate_poses(
 def _doubts(
     found: HandEye, shown: Observed | None, faults: Sequence[Fault], lens: str | None
 ) -> Iterator[str]:
-    """Warnings, each without its full stop: of what moved, of poses, and that of the lens."""
+    """Warnings, each without its full stop: about movements, poses and the lens."""
     rows, in_hand = [*range(len(found.sights))], found.sights.in_hand
     if shown is not None:
         rows = [picture.row - 1 for picture in shown.used]
     stands, moves = ("the camera", "the board")[:: -1 if in_hand else 1]
     for fault in faults:
-        own = replace(fault, row=rows[fault.row])
+        renumbered = replace(fault, row=rows[fault.row])
         words = {"stands": stands, "moves": moves, "rows": rows[-1] + 1}
         none = {"folder": None, "sockets": False, "timed": False}
-        yield render("fault.txt.j2", fault=own, **words, **none).strip()
+        yield render("fault.txt.j2", fault=renumbered, **words, **none).strip()
     yield from filter(None, (exchange_in(found, shown is None), lens))
 
 
 def _files(
     found: HandEye, table: str, shown: Observed | None, doubts: Sequence[str], good: bool
 ) -> dict[str, bytes]:
-    """All files, by a table of flange poses and what pictures show, if there are any.
+    """All files, by name, of a calibration from a table and, if there are any, pictures.
 
-    Errors are of each pose by a calibration without it. Their mean squares leave outliers out.
+    The error of each pose is from a calibration without it. Mean squares omit outliers.
     """
     sights, residuals = found.sights, held_out(found)
     moved = sights.corners.moved(residuals)
@@ -155,7 +155,7 @@ def _files(
         "position": _rms(positions[fitting]),
         "rotation": _rms(np.linalg.norm(residuals[fitting, 3:], axis=1)),
         "noise": alone,
-        "robot": np.sqrt(max(0.0, total**2 - alone**2)),  # by the arm's own errors
+        "robot": np.sqrt(max(0.0, total**2 - alone**2)),  # due to the arm's own errors
         "distance": np.median(np.linalg.norm(sights.board[:, :3, 3], axis=1)),
         "outliers": [names[row] for row in found.outliers],
     }
@@ -171,8 +171,8 @@ def _files(
         POSES: table_text(rows),
     }
     if shown is not None:
-        own = found.optics[len(BOARD) :]
-        lens = (moved_lens(shown.lens, own) if len(own) else None) or shown.lens
+        correction = found.optics[len(BOARD) :]
+        lens = (moved_lens(shown.lens, correction) if len(correction) else None) or shown.lens
         files |= {LENS: lens.as_ros().encode(), SETUP: shown.setup.encode()}
     return files
 

@@ -1,11 +1,11 @@
-"""What poses of a flange and of a board cannot determine, and mistakes in them, each by its name.
+"""Checks of flange and board poses: whether they determine the result, and likely mistakes.
 
-Other directions, other conventions and another camera's side are tried if the poses do not fit. The
-one that explains them is named. Sizes are compared by the scale s of the board in
+If the poses do not fit, other directions, conventions and the other mounting of the camera are
+tried. Messages name the one that fits. Sizes are compared by the scale s of the board in
 
     R_X (s y_i) + x = R_Gi z + t_Gi,
 
-with the rotations of the fit.
+with the rotations R_X and R_Gi of the fit.
 """
 
 from collections.abc import Iterator
@@ -20,22 +20,22 @@ from recalib.laboratory.plausibility.mistakes import Mistaken
 from recalib.laboratory.plausibility.steps import UNITS
 from recalib.spelling import counted
 
-FEWEST = 6  # poses: each has 6 numbers, and 12 are sought
-NEAREST = 0.02  # m: no camera has a focused board nearer
-ALIKE = 2.0  # deg: orientations that differ by less
-WRONG, HOPELESS = 5e-3, 50e-3  # m: few arms and cameras leave as much; none does
-EXPLAINED = 0.3  # the part of what remains that may remain without a mistake
-OPEN = 0.05, np.radians(5)  # m, rad: a deviation as large is no result
-LOOSE = 1e-2  # a singular value so small, over the largest, leaves a direction open
-OPEN_SIZE = 0.1  # of such a direction: then it is one of the size
-SIZE, SURE = 0.015, 5.0  # of a scale: the part and the deviations by which it has to be off
-HELD, LONGER = 0.3, 2.0  # m; times as far: what is on a flange is seldom farther from it
-BEHIND = -0.5  # along the camera's z axis, of a distance
+FEWEST = 6  # poses: each has 6 numbers, for 12 unknowns
+NEAREST = 0.02  # m: no camera can focus on a nearer board
+ALIKE = 2.0  # deg: orientations within it count as equal
+WRONG, HOPELESS = 5e-3, 50e-3  # m: largest misfit of most arms and cameras, and of any
+EXPLAINED = 0.3  # the fraction of a misfit that may remain once a mistake is corrected
+OPEN = 0.05, np.radians(5)  # m, rad: a result with a larger deviation is useless
+LOOSE = 1e-2  # of the largest singular value: smaller ones leave a direction undetermined
+OPEN_SIZE = 0.1  # component of such a direction along the scale: then the scale is undetermined
+SIZE, SURE = 0.015, 5.0  # smallest error of a scale to report: relative, and in deviations
+HELD, LONGER = 0.3, 2.0  # m; ratio of distances: an object on a flange is seldom farther away
+BEHIND = -0.5  # z in the camera over the distance: the board is behind the camera
 TILT = "try: poses that are tilted by 20 deg or more, about two axes"
 
 
 def check_motion(sights: Sights) -> None:
-    """Raise Mistaken, unless the flange moved and turned as much as it takes."""
+    """Raise Mistaken if poses are too few or turned too little, or the board is too near."""
     if len(sights) < FEWEST:
         found = f"{counted(len(sights), 'pose')} can be used"
         raise Mistaken(f"{found}; expected: at least {FEWEST}, better 15 or more")
@@ -55,20 +55,20 @@ def check_motion(sights: Sights) -> None:
         axis = ", ".join(f"{number:.2f}" for number in axes[0] * np.sign(axes[0].sum()))
         raise Mistaken(
             f"all turns are about one axis, ({axis}) in the base, along which the places of camera"
-            f" and board are not determined; {TILT}; of an arm with four axes, --height"
+            f" and board are not determined; {TILT}; for an arm with four axes, --height"
         )
 
 
 def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> None:
-    """Raise Mistaken if poses are likely wrong, or leave a place uncertain by decimetres.
+    """Raise Mistaken if poses are likely wrong, or leave a place uncertain.
 
-    Both tables are of the poses; `targets` is None if pictures show them.
+    The tables hold the poses of the fit; `targets` is None if pictures show the board.
     """
     remaining = found.misfit
     fits = remaining < WRONG
     sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
-    scale, deviation, left = min(sizes, key=lambda size: size[2])
-    if fits or (left < EXPLAINED * remaining and deviation < SIZE):
+    scale, deviation, error = min(sizes, key=lambda size: size[2])
+    if fits or (error < EXPLAINED * remaining and deviation < SIZE):
         _check_size(scale, deviation)
     if not fits:
         _check_height(found.sights, remaining)
@@ -87,21 +87,21 @@ def _misfit(sights: Sights) -> float:
 
 
 def _check_height(sights: Sights, remaining: float) -> None:
-    """Raise Mistaken if poses fit much better without the height, which they determine, too."""
+    """Raise Mistaken if poses that determine the height fit much better without the given one."""
     if sights.height is None or sights.axes[0][1] < ONE_AXIS:
         return
     best = _misfit(replace(sights, height=None))
     if best < EXPLAINED * remaining:
         raise Mistaken(
-            f"the poses do not fit the height ({1e3 * remaining:.3g} mm remain), but they do"
-            f" ({1e3 * best:.3g} mm) without --height, which they determine, too"
+            f"the poses do not fit the height ({1e3 * remaining:.3g} mm remain), but they fit"
+            f" ({1e3 * best:.3g} mm) without --height; they determine the height themselves"
         )
 
 
 def board_size(found: HandEye) -> tuple[float, float, float]:
-    """The board's true size over the one described, by the rotation of a fit; its deviation.
+    """The board's true size over the described one, given the rotations of a fit; its deviation.
 
-    Also the median error of positions with it [m], as large as the board is described.
+    Also the median error [m] of positions with this scale, divided by it.
     """
     sights, turn = found.sights, found.camera[:3, :3]
     rows = np.flatnonzero(found.weights >= np.median(found.weights) / 4)
@@ -111,7 +111,7 @@ def board_size(found: HandEye) -> tuple[float, float, float]:
     goal, rows_of = between[:, :3, 3], system.reshape(-1, 7)
     _, strengths, directions = np.linalg.svd(rows_of, full_matrices=False)
     if np.abs(directions[strengths < LOOSE * strengths[0], 0]).max(initial=0.0) > OPEN_SIZE:
-        return 1.0, np.inf, np.inf  # a flange that only turns tells nothing of sizes
+        return 1.0, np.inf, np.inf  # a flange that only turns does not determine sizes
     best = np.linalg.lstsq(rows_of, goal.ravel(), rcond=LOOSE)[0]
     errors = goal - system @ best
     variance = np.sum(errors**2) / max(1, errors.size - 7)
@@ -122,18 +122,18 @@ def board_size(found: HandEye) -> tuple[float, float, float]:
 
 
 def _check_size(scale: float, deviation: float) -> None:
-    """Raise Mistaken if positions and the board are not of one scale."""
+    """Raise Mistaken if positions and the board differ in scale."""
     if abs(scale - 1) < max(SIZE, SURE * deviation):
         return
     for factor, words in UNITS.items():
         if abs(scale * factor - 1) < 0.1:
             raise Mistaken(
-                f"the flange's positions are likely {words}: by them, the board is {scale:.3g}"
+                f"the flange's positions are likely {words}: by these, the board is {scale:.3g}"
                 " times as large as described; try: --unit, or another unit in the heading"
             )
     raise Mistaken(
-        f"the board is {100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %)"
-        f" {'larger' if scale > 1 else 'smaller'} than described, by the flange's positions; try:"
+        f"according to the flange's positions, the board is {100 * abs(scale - 1):.1f} % (deviation"
+        f" {100 * deviation:.1g} %) {'larger' if scale > 1 else 'smaller'} than described; try:"
         " measure its square and the bar below it"
     )
 
@@ -141,19 +141,19 @@ def _check_size(scale: float, deviation: float) -> None:
 def _check_readings(
     sights: Sights, flange: PoseTable, targets: PoseTable | None, remaining: float
 ) -> None:
-    """Raise Mistaken if poses fit much better when read otherwise; simpler ways are tried first."""
+    """Raise Mistaken if the poses fit much better when read in another way, or fit in no way."""
     side, option = ("fixed", "fixed") if sights.in_hand else ("on the hand", "hand")
     direction = f"the camera is {side} (--camera {option}), or"
-    direction += " the flange's poses are those of the base in it (--inverse flange)"
+    direction += " the flange's poses are those of the base in the flange (--inverse flange)"
     boards = [("", sights.board)]
     if targets is not None:
-        direction += ", or the target's are those of the camera in it (--inverse targets)"
+        direction += ", or the target's are those of the camera in the target (--inverse targets)"
         boards = [*_readings("target", "--target-convention", targets)]
     fits = []
     for theirs, board in boards:
-        for own, poses in _readings("flange", "--convention", flange):
+        for ours, poses in _readings("flange", "--convention", flange):
             for way, right in (("", poses), (direction, np.linalg.inv(poses))):
-                if words := ", and ".join(filter(None, (way, own, theirs))):
+                if words := ", and ".join(filter(None, (way, ours, theirs))):
                     fits.append((_misfit(replace(sights, flange=right, board=board)), words))
     best, words = min(fits, key=lambda fit: fit[0])
     remain = f"({1e3 * remaining:.3g} mm remain)"
@@ -168,12 +168,12 @@ def _check_readings(
 
 
 def exchange_in(found: HandEye, by_table: bool) -> str | None:
-    """Why two mistakes are likely that fit together, as both tables inverted; None if they are not.
+    """A warning about two mistakes that fit together, such as two inverted tables; None without.
 
-    They exchange camera and board, or what is on the flange and what is in the base.
+    They exchange camera and board, or the object on the flange and the object in the base.
 
     Args:
-        by_table: whether a table has the board's poses; pictures have them in one direction.
+        by_table: whether a table has the board's poses; those from pictures cannot be inverted.
     """
     in_hand, board = found.sights.in_hand, found.sights.board[:, :3, 3]
     ends = [("camera", found.camera), ("board", found.board)]
@@ -196,7 +196,7 @@ def exchange_in(found: HandEye, by_table: bool) -> str | None:
 
 
 def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, np.ndarray]]:
-    """Poses as they were read, without words, and as rotations could be read otherwise."""
+    """Poses as read, without words, and with the rotations read in other ways, in words."""
     yield "", table.poses
     for words, turns in other_readings(table.turns):
         poses = replace(table, rotations=turns).poses

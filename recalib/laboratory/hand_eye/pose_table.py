@@ -1,4 +1,4 @@
-"""Tables of poses that a controller or a camera wrote, and how each writes a pose."""
+"""Tables of poses from a controller or a camera, and the conventions in which they write poses."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -25,23 +25,23 @@ from recalib.laboratory.tables.measurements import TURNS
 from recalib.laboratory.tables.table import MOST, Table, number_in, table_of
 from recalib.spelling import listed
 
-NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions, and of matrices
-SKEW = 0.02  # of a norm, as people round them
+NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions and of rotation matrices, by their count of numbers
+SKEW = 0.02  # relative error of a norm, from rounding
 _BETWEEN = re.compile(r"[\s,;]+")
 _COMMENT = re.compile(r"^\s*(#|%|//).*\n?", re.MULTILINE)
-_LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # e is in 1e-3
+_LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # without e, which is in 1e-3
 _NAN = re.compile(r"\b(nan|inf|infinity)\b", re.IGNORECASE)
-_ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler's angles; no axis twice in a row
+_ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler angles; no axis twice in a row
 
 
 @dataclass(frozen=True)
 class Convention:
     """A way to write poses."""
 
-    headings: tuple[str, ...]  # of the rotation, in the order in which the controller shows it
-    turns: Callable[[np.ndarray], Rotation]  # of its numbers (n, k) [rad, 1]
-    length: str = ""  # the unit, unless the headings of a table have another one
-    angle: str = ""  # likewise
+    headings: tuple[str, ...]  # of the rotation, in the controller's order
+    turns: Callable[[np.ndarray], Rotation]  # from the rotation's numbers (n, k) [rad, 1]
+    length: str = ""  # the unit of lengths in columns whose heading names none
+    angle: str = ""  # the unit of angles in columns whose heading names none
 
 
 def _euler(order: str, *headings: str) -> Convention:
@@ -60,7 +60,7 @@ CONVENTIONS = {
     "matrix": Convention(MATRIX, lambda rows: Rotation.from_matrix(rows.reshape(-1, 3, 3)), "m"),
 }
 POSE = (*MATRIX[:3], "x", *MATRIX[3:6], "y", *MATRIX[6:], "z", *(f"last {n}" for n in range(4)))
-# without a convention, the headings of a table decide
+# conventions that the headings of a table reveal
 OWN = (
     *(Convention(columns.headings, turns) for columns, turns in TURNS.items()),
     *(Convention(("qw", "qx", "qy", "qz"), scalar_first), CONVENTIONS["matrix"]),
@@ -68,9 +68,9 @@ OWN = (
 
 
 def convention_of(name: str) -> Convention:
-    """The convention of a name, or of an order of Euler's angles such as ZYZ.
+    """The convention with this name, or with this order of Euler angles, such as ZYZ.
 
-    Capitals turn about axes that move, as in SciPy. Raises UnknownName.
+    Capitals mean moving axes, as in SciPy. Raises UnknownName.
     """
     if _ORDER.fullmatch(name):
         return _euler(name, "a", "b", "c")
@@ -80,9 +80,9 @@ def convention_of(name: str) -> Convention:
 
 
 def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
-    """What numbers (n, k) of rotations could mean, in words, and the rotations that they would be.
+    """Other meanings of the numbers (n, k) of rotations, in words, and the resulting rotations.
 
-    Angles may also be degrees that were read as rad, and the other way around.
+    These include degrees that were read as radians, and radians that were read as degrees.
     """
     if numbers.shape[1] == 4:
         yield "a quaternion w, x, y, z", scalar_first(numbers)
@@ -104,8 +104,8 @@ class PoseTable:
     table: Table
     positions: np.ndarray  # (n, 3) m
     rotations: Rotation
-    turns: np.ndarray  # (n, k) rad or 1, the numbers of the rotations
-    inverted: bool = False  # whether poses are wanted in the other direction
+    turns: np.ndarray  # (n, k) rad or 1, the rotations as the table writes them
+    inverted: bool = False  # whether the table has the inverse of the poses
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -116,7 +116,7 @@ class PoseTable:
 
     @property
     def poses(self) -> np.ndarray:
-        """(n, 4, 4) m."""
+        """The poses (n, 4, 4) [m], inverted back if the table has the inverse."""
         poses = RigidTransform.from_components(self.positions, self.rotations).as_matrix()
         return np.linalg.inv(poses) if self.inverted else poses
 
@@ -127,12 +127,12 @@ def read_poses(
     """The poses in the table at `path`.
 
     Args:
-        convention: how its rotations are written; by its headings if it is None.
-        unit: of positions, if neither headings nor the convention have the right one.
+        convention: the notation of rotations; if None, the headings decide.
+        unit: of positions without a unit in their heading; default: that of the convention.
         inverted: whether the table has the inverse poses.
 
-    Raises InvalidFile: columns that are missing, a cell that is no number, a rotation that is none;
-    UnknownName: the convention.
+    Raises InvalidFile: a missing column, a cell that is not a number, numbers that are not a
+    rotation; UnknownName: an unknown convention.
     """
     way = None if convention is None else convention_of(convention)
     text = _COMMENT.sub("", read_file(path, MOST).decode("utf-8-sig", "replace"))
@@ -170,13 +170,13 @@ def read_poses(
 
 
 def _headed(text: str, path: Path, way: Convention | None) -> str:
-    """Numbers alone, a pose in a row or a matrix in three or four, as a table with headings."""
+    """Add headings to numbers alone: a pose in each row, or a matrix in each three or four."""
     lines = (line.strip(" \t\r,;[]()") for line in text.splitlines())
     rows = [_BETWEEN.split(line) for line in lines if line]
-    if len(rows) > 1 and len(rows[0]) == 1:  # how many poses follow
+    if len(rows) > 1 and len(rows[0]) == 1:  # the number of poses that follow
         rows = rows[1:]
     if {len(row) for row in rows} == {4}:
-        lasts = *rows, [row[-1] for row in rows[:4]]  # a column, if matrices are transposed
+        lasts = *rows, [row[-1] for row in rows[:4]]  # the last column, if they are transposed
         high = 4 if any([*map(number_in, last)] == [0, 0, 0, 1] for last in lasts) else 3
         rows = [[*chain(*rows[first : first + high])] for first in range(0, len(rows), high)]
     if not rows:
@@ -197,6 +197,6 @@ def _headed(text: str, path: Path, way: Convention | None) -> str:
             headings = ["time", *headings]
         if count != len(headings):
             valid = f"{len(headings)}, {', '.join(headings)}"
-            valid += "; has it decimal commas?" * (count == 2 * len(headings))
+            valid += "; does it have decimal commas?" * (count == 2 * len(headings))
             raise InvalidFile(path, f"it has {count} numbers in a row; expected: {valid}")
     return "\n".join(",".join(row) for row in (headings[:count], *rows))

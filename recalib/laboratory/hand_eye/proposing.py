@@ -1,7 +1,7 @@
-"""Flange poses whose pictures teach most of where camera and board are.
+"""Flange poses whose pictures are most informative about the poses of camera and board.
 
-Candidates are drawn: the flange within a box, the line of sight within a cone about the board's
-normal, the board whole in the picture. Each pose is chosen given those that were measured and those
+Candidates are drawn with the flange within a box, the line of sight within a cone about the board's
+normal, and the whole board in the picture. Each pose is chosen given the measured poses and those
 chosen before it.
 """
 
@@ -29,23 +29,23 @@ from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import optics_of, predicted_views, projected, sighting
 
-DRAWN, TRIED = 400, 40_000  # candidates, and draws for them
+DRAWN, TRIED = 400, 40_000  # candidates, and random draws for them
 NOISE = 0.1  # px, of corners
-BEYOND = 0.1  # m, about the box of measured poses
-MIDDLE = 0.4  # of a picture's half sides, within which the board's middle is
+BEYOND = 0.1  # m, added on each side of the box of measured poses
+MIDDLE = 0.4  # of the picture's width and height: largest offset of the board from its centre
 
 
 def propose_poses(
     folder: str | PathLike[str], count: int, box: Box | None, cone: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Poses (n, 4, 4) of the flange, and the camera's deviation [m] before and after each.
+    """Poses (n, 4, 4) of the flange, and the camera's deviation [m] (n + 1,) before and after each.
 
     Args:
-        folder: of a hand-eye calibration by pictures.
-        box: of the flange's positions in the base (default: those measured, and a little beyond).
-        cone: rad, between the line of sight and the board's normal.
+        folder: of a hand-eye calibration from pictures.
+        box: of the flange's positions in the base (default: the measured box and a little beyond).
+        cone: rad, largest angle between the line of sight and the board's normal.
 
-    Raises InvalidFile: it is no such folder; RecalibError: the board would not be seen.
+    Raises InvalidFile: not such a folder; RecalibError: the board would be visible in no pose.
     """
     home = Path(folder)
     if not (home / SETUP).is_file():
@@ -60,7 +60,7 @@ def propose_poses(
         found = HandEye.at(Sights(flange, flange, in_hand), camera, target)
 
     def information_at(flange: np.ndarray) -> np.ndarray:
-        """The information (n, 12, 12) of pictures from poses of the flange."""
+        """The information (n, 12, 12) of pictures at flange poses (n, 4, 4)."""
         views = []
         for pose in found.predict(Sights(flange, flange, in_hand)):
             pixels, _ = projected(board.points, lens, pose)
@@ -88,17 +88,17 @@ def propose_poses(
 
 
 def _deviation(information: np.ndarray) -> float:
-    """m, of the camera's position along the worst axis."""
+    """Standard deviation [m] of the camera's position along the worst axis."""
     return float(np.sqrt(np.linalg.eigvalsh(np.linalg.inv(information)[:3, :3])[-1]))
 
 
 def _drawn(found: HandEye, board: Board, lens: Lens, box: Box | None, cone: float) -> np.ndarray:
-    """Poses (n, 4, 4) of the flange at which the board would be seen."""
+    """Random poses (n, 4, 4) of the flange at which the camera would see the board."""
     rng, sights = generator(0, "poses of a flange to measure next"), found.sights
     middle, places = board.points.mean(axis=0), sights.flange[:, :3, 3]
     box = box or Box(places.min(axis=0) - BEYOND, places.max(axis=0) + BEYOND)
     distances = np.linalg.norm((found.predict(sights) @ [*middle, 1.0])[:, :3], axis=1)
-    # the board before the camera: its middle on a ray, its normal within the cone about that
+    # the board in front of the camera: its middle on a ray, its normal within a cone about the ray
     rays = np.ones((TRIED, 3))
     rays[:, :2] = rng.uniform(-MIDDLE, MIDDLE, (TRIED, 2)) * lens.size / lens.matrix.diagonal()[:2]
     rays /= np.linalg.norm(rays, axis=1)[:, None]
@@ -114,7 +114,7 @@ def _drawn(found: HandEye, board: Board, lens: Lens, box: Box | None, cone: floa
     drawn = found.camera @ boards @ np.linalg.inv(found.board)
     drawn = np.linalg.inv(drawn) if sights.in_hand else drawn
     (_, second, _), axes = sights.axes
-    if second < ONE_AXIS:  # it turns about this axis alone
+    if second < ONE_AXIS:  # the arm turns the flange about one axis only
         angles = rng.uniform(-np.pi, np.pi, len(drawn))[:, None] * axes[0]
         drawn[:, :3, :3] = Rotation.from_rotvec(angles).as_matrix() @ sights.flange[0, :3, :3]
     drawn = drawn[((drawn[:, :3, 3] >= box.low) & (drawn[:, :3, 3] <= box.high)).all(axis=1)]

@@ -1,1 +1,1 @@
-"""An arm that moves, measures and calibrates itself."""
+"""Calibration of an arm that moves and measures by itself."""

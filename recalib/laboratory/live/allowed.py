@@ -17,10 +17,10 @@ from recalib.numerics.randomness import generator
 from recalib.station.guarded import REACHED
 from recalib.station.interface import StationFailed
 
-DRAWN, MOST = 2000, 400  # postures that are drawn, and of those that are allowed, kept
-FEWEST = 20  # to choose from
-STEP = 0.02  # rad, m of the fastest joint, between the postures of a path that are checked
-Problem = tuple[str, str]  # what was found and what was expected, in words
+DRAWN, MOST = 2000, 400  # postures that are drawn, and allowed ones that are kept
+FEWEST = 20  # allowed postures
+STEP = 0.02  # rad, m: largest motion of a joint between two checked postures of a path
+Problem = tuple[str, str]  # the finding and the expectation, in words
 _RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s*")
 
 
@@ -33,7 +33,7 @@ class Box:
 
     @classmethod
     def read(cls, ranges: Sequence[str]) -> "Box":
-        """From ranges of x, y and z, each as in `-40 cm to 40 cm`. Raises InvalidSetting."""
+        """Read ranges of x, y and z, such as `-40 cm to 40 cm`. Raises InvalidSetting."""
         ends = []
         for text in ranges:
             if not (found := _RANGE.fullmatch(text)):
@@ -46,18 +46,18 @@ class Box:
 
 
 class AllowedPostures:
-    """Postures near home, within limits, to which a straight path in joint space leads from home.
+    """Postures near home, within limits, that the arm can reach on a straight path in joint space.
 
-    They follow from the arguments alone, so that a killed calibration goes on as it began.
+    They depend only on the arguments, so that a killed calibration can continue with the same ones.
 
     Args:
-        home: (joints,) rad, m where the arm stood at first.
-        limits: lower and upper (joints,) rad, m that the station allows; those of the URDF hold,
-            too, and the outermost part of each joint's range is left out.
+        home: (joints,) rad, m, the first posture.
+        limits: lower and upper (joints,) rad, m of the station; those of the URDF apply, too, and
+            the outermost part of each joint's range is left out.
         span, box: see `LiveSettings`.
-        clearance: what must not touch in postures and on paths; default: anything may.
+        clearance: the shapes that must keep apart in postures and on paths (default: none).
 
-    Raises InvalidSetting: home is not allowed, or hardly anything else.
+    Raises InvalidSetting if home is not allowed, or too few other postures are.
     """
 
     def __init__(
@@ -75,14 +75,14 @@ class AllowedPostures:
         lower, upper = np.maximum(lower, limits[0]), np.minimum(upper, limits[1])
         reach = span * np.where(arm.slides, LEVER, 1.0)
         self._ranges = {
-            "within its limits without their outermost part": (lower, upper),
+            "within its limits, without the outermost part": (lower, upper),
             "within --span of the first posture": (home - reach, home + reach),
         }
         if problem := self._problem(home):
             raise InvalidSetting("the first posture", *problem)
         low, high = np.maximum(lower, home - reach), np.minimum(upper, home + reach)
         drawn = generator(0, "postures of a live calibration").uniform(low, high, (DRAWN, len(low)))
-        # most fail at their ends, which are quickly looked at
+        # most fail at the end of their path, which is quick to check first
         allowed = (end for end in drawn if not self._obstacle(end) and self._is_free(home, end))
         found = [*islice(allowed, MOST)]
         if len(found) < FEWEST:
@@ -98,18 +98,18 @@ class AllowedPostures:
         return self._arm.forward(joints[None])[0, :3, 3]
 
     def path(self, start: np.ndarray, goal: np.ndarray) -> list[np.ndarray]:
-        """Where to go in turn, to be at an allowed posture at last: straight, or by way of home.
+        """The postures to go to in turn to reach a goal: straight there, or by way of home.
 
-        Raises StationFailed: the arm may not stand where it does, or no path leads from there.
+        Raises StationFailed if the present posture is not allowed, or no path leads from it.
         """
         straight = self._is_free(start, goal)
         self.check(start, start if straight else self.home)
         return [goal] if straight else [self.home, goal]
 
     def check(self, start: np.ndarray, goal: np.ndarray) -> None:
-        """Raise StationFailed unless the arm may stand at start, and go straight to a posture.
+        """Raise StationFailed unless the arm may stand at start and go straight to the goal.
 
-        It may stand as far from where it was sent as a station may miss that.
+        All bounds are wider by the largest error with which a station may reach a posture.
         """
         if problem := self._problem(start, REACHED):
             raise self._refusal("stands", start, *problem)
@@ -125,18 +125,18 @@ class AllowedPostures:
         )
 
     def _between(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
-        """Postures (n, joints) along a straight path, both ends with it."""
+        """Postures (n, joints) along a straight path, including both ends."""
         count = 2 + int(np.abs(end - start).max() / STEP)
         return start + np.linspace(0, 1, count)[:, None] * (end - start)
 
     def _is_free(self, start: np.ndarray, end: np.ndarray) -> bool:
-        """Whether nothing is in the way behind the start, which may be off by a little."""
+        """Whether the path is free after its start, where the arm may stand slightly off."""
         if self._box is None and self._clearance is None:
             return True
         return not any(self._obstacle(posture) for posture in self._between(start, end)[1:])
 
     def _problem(self, joints: np.ndarray, slack: float = 0.0) -> Problem | None:
-        """Why the arm may not stand there; all bounds are wider by a slack [rad, m]."""
+        """Why a posture is not allowed, if so; all bounds are wider by the slack [rad, m]."""
         for which, (low, high) in self._ranges.items():
             beyond = (joints < low - slack) | (joints > high + slack)
             if beyond.any():
@@ -148,14 +148,14 @@ class AllowedPostures:
         return self._obstacle(joints, slack)
 
     def _obstacle(self, joints: np.ndarray, slack: float = 0.0) -> Problem | None:
-        """What is in the way there, if anything is."""
+        """The violation of box or clearance in a posture, if there is one."""
         if (box := self._box) is not None:
             place = self.tool(joints)
             if ((place < box.low - slack) | (place > box.high + slack)).any():
                 where = ", ".join(f"{1e3 * x:.0f} mm" for x in place)
                 return f"the tool at ({where})", "within --box"
         if self._clearance and (pair := self._clearance.touching(joints, MARGIN - slack)):
-            option = "--floor" if FLOOR in pair else "--no-self-collision"
+            option = "another --floor" if FLOOR in pair else "--no-self-collision"
             found = f"{pair[0]} nearer than {1e3 * MARGIN:.0f} mm to {pair[1]}"
-            return found, f"more room, or another {option} if this is wrong"
+            return found, f"more room, or {option} if this is wrong"
         return None

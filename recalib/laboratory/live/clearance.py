@@ -1,4 +1,4 @@
-"""Whether an arm keeps off the floor and off itself, by the shapes of its nominal links."""
+"""Checks of whether an arm clears the floor and itself, with the shapes of its nominal links."""
 
 from itertools import combinations
 
@@ -9,22 +9,22 @@ import pinocchio as pin
 from recalib.nominal.kinematics import Arm, tool_frame
 
 MARGIN = 0.02  # m between two shapes
-SECOND = 2  # the joint that carries the second link: links beyond it may reach the floor
+SECOND = 2  # the joint that carries the second link; links after it must clear the floor
 FLOOR, TOOL = "the floor", "the tool"
 
 
 class Clearance:
-    """The pairs of shapes that keep apart: links, what the tool carries, and the floor.
+    """Pairs of shapes that must keep apart: links, a sphere around the tool, and the floor.
 
     Pairs of links that are nearer than the margin at home touch by design, and are left out. Links
-    are their convex hulls, which takes microseconds, except in pairs whose hulls touch at home and
-    whose meshes do not.
+    are replaced by their convex hulls, which takes microseconds to check, except in pairs whose
+    hulls touch at home while their meshes do not.
 
     Args:
-        home: (joints,) rad, m where the arm stands without touching itself.
-        shapes: of its links; see `load_shapes`.
+        home: (joints,) rad, m, a posture in which the arm does not touch itself.
+        shapes: of the links; see `load_shapes`.
         floor, self_collision: see `LiveSettings`.
-        tool_radius: m about the tool link's origin that what the tool carries may take.
+        tool_radius: m, of the sphere about the tool link's origin that encloses the tool's load.
     """
 
     def __init__(
@@ -41,8 +41,8 @@ class Clearance:
         self.pairs: list[tuple[str, str]] = []  # the names of the shapes that keep apart
         self._margins: dict[float, pin.GeometryData] = {}
         frame = arm.model.frames[tool_frame(arm.model, arm.tool)]
-        own = TOOL, frame.parentJoint, frame.placement, coal.Sphere(max(tool_radius, 1e-6))
-        links = [*shapes.geometryObjects, pin.GeometryObject(*own)]
+        tool = TOOL, frame.parentJoint, frame.placement, coal.Sphere(max(tool_radius, 1e-6))
+        links = [*shapes.geometryObjects, pin.GeometryObject(*tool)]
         pin.forwardKinematics(self._model, self._data, home)
         for one, other in combinations(links, 2) if self_collision else ():
             if one.parentJoint == other.parentJoint:
@@ -59,7 +59,7 @@ class Clearance:
                     self._keep_apart(_hull(link), below)
 
     def touching(self, joints: np.ndarray, margin: float = MARGIN) -> tuple[str, str] | None:
-        """The names of two shapes that are nearer than the margin [m]; None if all keep apart."""
+        """The names of two shapes that are nearer than the margin [m]; None if all are clear."""
         if margin not in self._margins:
             self._margins[margin] = self._shapes.createData()
             for request in self._margins[margin].collisionRequests:
@@ -76,7 +76,7 @@ class Clearance:
         self.pairs.append((one.name, other.name))
 
     def _distance(self, *pair: pin.GeometryObject) -> float:
-        """How far apart [m] two shapes are at home."""
+        """The distance [m] of two shapes at home."""
         args = []
         for shape in pair:
             place = self._data.oMi[shape.parentJoint] * shape.placement
@@ -85,7 +85,7 @@ class Clearance:
 
 
 def _hull(shape: pin.GeometryObject) -> pin.GeometryObject:
-    """The convex hull of a mesh; other shapes are convex."""
+    """The convex hull of a mesh; other shapes are convex already."""
     if isinstance(shape.geometry, coal.BVHModelBase):
         shape.geometry.buildConvexHull(True, None)
         convex = shape.geometry.convex

@@ -1,4 +1,4 @@
-"""`recalib live`: its options become a calibration that moves the arm; see docs/live.md."""
+"""The command `recalib live`, which moves the arm according to its options; see docs/live.md."""
 
 import argparse
 import signal
@@ -26,14 +26,14 @@ from recalib.station.opening import open_station
 if TYPE_CHECKING:  # it needs OpenCV
     from recalib.station.pictures import BoardInPictures
 
-# Who closes the terminal, ends the program, or wants it in the background means a stop, too.
+# A closed terminal, a kill, and a suspension to the background must stop the arm, too.
 STOPPING = signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP
-ANSWERS = {"": Answer.MOVE, "s": Answer.SKIP}  # all others, such as q, end it
+ANSWERS = {"": Answer.MOVE, "s": Answer.SKIP}  # any other, such as q, ends the session
 TURNED = 0.05  # deg, mm: a joint that moves less is not listed
 
 
 def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) -> Ended:
-    """Move, measure and write rows as the options say. Raises as `calibrate_live`."""
+    """Move, measure and write rows according to the options. Raises like `calibrate_live`."""
     arm = load_arm(given.urdf, given.tool, given.base)
     error = None if given.error is None else LENGTH.value_of("--error", given.error)
     box = None if given.box is None else Box.read(given.box)
@@ -71,7 +71,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
 
 @contextmanager
 def _signals_that_stop() -> Iterator[None]:
-    """Have what ends or suspends a program raise KeyboardInterrupt, which stops the station."""
+    """Let signals that end or suspend the program raise KeyboardInterrupt: it stops the station."""
     before = {number: signal.signal(number, signal.default_int_handler) for number in STOPPING}
     try:
         yield
@@ -83,7 +83,7 @@ def _signals_that_stop() -> Iterator[None]:
 def _with_board(
     opening: Callable[[], Station], given: argparse.Namespace
 ) -> tuple[Callable[[], Station], "BoardInPictures"]:
-    """A function that opens a station with a camera as one that measures, and the pictures."""
+    """A function that opens a station with a camera as one that measures poses, and its board."""
     from recalib.station.pictures import BoardInPictures, PicturesOfABoard
     from recalib.vision.boards import read_board
     from recalib.vision.lenses import read_lens
@@ -98,7 +98,7 @@ def _with_board(
 def ask_to_move(arm: Arm, move: Move) -> Answer:
     """The answer of a person at the terminal to a proposed move.
 
-    What was typed before the question appeared is no answer to it, and is thrown away.
+    Keys that were pressed before the question appeared are not an answer, and are discarded.
     """
     turns = np.where(arm.slides, 1e3, 180 / np.pi) * (move.goal - move.start)
     units = np.where(arm.slides, "mm", "deg")

@@ -1,4 +1,4 @@
-"""A table of measurements that grows by a whole row at a time, and survives being killed."""
+"""A table of measurements that grows by whole rows, and stays valid if the process is killed."""
 
 import csv
 import fcntl
@@ -29,16 +29,16 @@ if TYPE_CHECKING:  # it needs OpenCV
 class Record:
     """The rows so far, the postures that a person skipped, and the files that hold them.
 
-    A row that a killed process or a full disk left without its end is dropped; nothing else that
-    is there is changed. Skipped postures are in a file of their own next to the table.
+    An incomplete last row, from a killed process or a full disk, is dropped; nothing else in an
+    existing table is changed. Skipped postures are in a separate file next to the table.
 
     Args:
-        path: of the table, which may be there already.
-        arm: whose joints are in the first columns.
-        description: what the table does not say itself.
-        pictures: what those in its column `picture` say, which is used instead of its poses.
+        path: of the table, which may exist already.
+        arm: its joints are the first columns.
+        description: frames, distances and columns that the table cannot express.
+        pictures: reads the pictures in the column `picture`; replaces the poses of the table.
 
-    Raises InvalidFile: it is not such a table, or another process writes it.
+    Raises InvalidFile: not such a table, or another process is writing it.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Record:
         self.path, self._arm, self._description = Path(path), arm, description
         self.pictures = pictures
         self.observations: Observations | None = None  # the rows; None while there are none
-        self.dropped = ""  # the row without an end, if there was one
+        self.dropped = ""  # the incomplete last row, if there was one
         self._joints = joint_headings(arm, "rad", "m")
         self._skips = self.path.with_name(f"{self.path.stem}_skipped{self.path.suffix}")
         try:
@@ -75,7 +75,7 @@ class Record:
         content = read_file(self.path, MOST)
         self._content = content[: content.rfind(b"\n") + 1]
         self.dropped = content[len(self._content) :].decode("utf-8", "replace")
-        if self._content.count(b"\n") == 1:  # a header alone: it was killed before the first row
+        if self._content.count(b"\n") == 1:  # a header alone, from before the first row
             self._content = b""
         start = ",".join(self._joints).encode()
         if self._content:
@@ -103,7 +103,7 @@ class Record:
         return joints
 
     def skip(self, posture: np.ndarray) -> None:
-        """Remember for good that a posture (joints,) [rad, m] is not wanted."""
+        """Record permanently that a person skipped a posture (joints,) [rad, m]."""
         self.skipped = np.vstack([self.skipped, posture])
         with whole(self._skips) as file:
             rows = (dict(zip(self._joints, row, strict=True)) for row in self.skipped.tolist())
@@ -112,10 +112,10 @@ class Record:
     def read(
         self, angles: np.ndarray, cells: Mapping[str, float | str]
     ) -> tuple[Observations, bytes]:
-        """The rows with a further one, and its text, before it is written.
+        """The rows with a new one, and the text of the new row, which is not yet written.
 
-        It has the angles (joints,) [rad, m] where the arm stood, and the cells measured there, by
-        headers. Raises InvalidFile: columns other than before, or cells that are no measurement.
+        The row has the joints (joints,) [rad, m] and the cells measured there, by heading. Raises
+        InvalidFile: columns other than before, or cells that are not a measurement.
         """
         names, row = [*self._joints, *map(str, cells)], [*angles.tolist(), *cells.values()]
         header = self._header if len(self) else names
@@ -131,9 +131,9 @@ class Record:
         return self._read(self._content + line), line
 
     def write(self, observations: Observations, line: bytes) -> None:
-        """Add the row that `read` returned: it is on the disk when this returns.
+        """Append the row that `read` returned; it is on the disk when this returns.
 
-        Raises InvalidFile: there is no room for it.
+        Raises InvalidFile if there is no space for it.
         """
         try:
             os.lseek(self._file, len(self._content), os.SEEK_SET)
@@ -149,7 +149,7 @@ class Record:
         self.observations = observations
 
     def close(self) -> None:
-        """Let others write it. Without a row there is no file."""
+        """Release the table to other processes; remove it if it has no rows."""
         if not self._content:
             self.path.unlink(missing_ok=True)
         os.close(self._file)
@@ -159,7 +159,7 @@ class Record:
         data = data_set(rows, self._description, self._arm)
         if len(data.targets) > 1:
             names = ", ".join(data.targets)
-            raise InvalidFile(self.path, f"it has the targets {names}; expected: one and the same")
+            raise InvalidFile(self.path, f"it has the targets {names}; expected: a single one")
         *before, last = rows.columns.get(PICTURES.name, np.array([""])).tolist()
         if last and last in before:
             reason = f"{last} is in an earlier row; expected: a new file for each picture"

@@ -1,7 +1,7 @@
-"""By the rows so far: the arm's errors, the remaining error, and what to measure next.
+"""Calibration from the rows so far, the predicted error, and the next posture to measure.
 
-All of it follows from the rows alone, without what an earlier update found: a calibration that was
-killed goes on as if it had not been. That is fast enough without many waves and a process.
+Everything is computed from the rows alone, without the state of earlier updates, so that a killed
+calibration continues as if nothing had happened. Models this small are fast enough for that.
 """
 
 from collections.abc import Iterator
@@ -31,21 +31,21 @@ from recalib.station.guarded import REACHED
 if TYPE_CHECKING:  # it needs OpenCV
     from recalib.station.pictures import BoardInPictures
 
-MODELS = OFFSETS, JOINT_ERRORS  # of which the more probable one is used
+MODELS = OFFSETS, JOINT_ERRORS  # the more probable one is used
 FIRST = 20  # rows for an initial estimate of instrument and target: more take longer
-RETURNING = slice(60)  # rows to estimate how well the arm returns, for the same reason
-LAST = 4  # rows whose predictions, each by the rows before it, are compared with them
-AHEAD = 10  # postures that have to be of use, or none is
-GATE, ROW = 4.0, 3  # standard deviations; so many rows in a row farther off are no outliers
-WILD, FAR = 10.0, 0.05  # standard deviations and m: one row as far off is no outlier, either
+RETURNING = slice(60)  # rows to estimate the arm's repeatability from: more take longer
+LAST = 4  # rows that are compared with their predictions from the rows before
+AHEAD = 10  # further postures by which the benefit of going on is judged
+GATE, ROW = 4.0, 3  # standard deviations, and rows: so many successive rows off are no outliers
+WILD, FAR = 10.0, 0.05  # standard deviations and m: even a single row farther off is no outlier
 
 
 class RunningCalibration:
-    """Calibrations of an arm from rows that become more: geometry, and joint errors if it has any.
+    """Calibrations of an arm from a growing number of rows: geometry, and joint errors if likely.
 
     Args:
-        postures: that may be measured.
-        pictures: by which the rows are measured, if cameras do it.
+        postures: to choose the next posture from.
+        pictures: reads the pictures, if the rows are measured by a camera.
     """
 
     def __init__(
@@ -57,10 +57,10 @@ class RunningCalibration:
     ):
         self._arm, self._description, self._postures = arm, description, postures
         self._pictures, self._probes = pictures, postures.joints[:PROBES]
-        self._scale = np.where(arm.slides, 1.0, LEVER)  # m for a rad, or for a m
-        self._frames: dict[int, Frames] = {}  # by the number of rows that they are from
+        self._scale = np.where(arm.slides, 1.0, LEVER)  # m for each rad, or for each m
+        self._frames: dict[int, Frames] = {}  # initial estimates by the number of rows used
         self._calibrations: dict[int, Calibration] = {}
-        self._returning: dict[int, np.ndarray] = {}  # the covariance (6, 6) of how the arm returns
+        self._returning: dict[int, np.ndarray] = {}  # covariance (6, 6) of the arm's repeatability
 
     @staticmethod
     def is_ready(observations: Observations) -> bool:
@@ -68,7 +68,7 @@ class RunningCalibration:
         return len(observations) >= fewest(observations) + SPARE
 
     def calibration(self, observations: Observations) -> Calibration:
-        """From all rows. Raises RecalibError: they do not fit the arm."""
+        """The calibration from all rows. Raises RecalibError if they do not fit the arm."""
         count, some = len(observations), min(FIRST, len(observations))
         if some not in self._frames:
             poses = replace(observations[:some], optics=None)
@@ -85,7 +85,7 @@ class RunningCalibration:
         return self._calibrations[count]
 
     def _weighed(self, observations: Observations, count: int) -> Observations:
-        """Rows by cameras, weighed as by the calibration of so many rows."""
+        """Rows of a camera with the noise that the calibration of `count` rows assumes."""
         if observations.optics is None:
             return observations
         return observations.with_noise(self._returning[count])
@@ -93,9 +93,9 @@ class RunningCalibration:
     def error(self, observations: Observations) -> float:
         """The predicted mean position error [m] in allowed postures.
 
-        It includes the noise, from which errors that no parameter describes cannot be
-        distinguished. The parameters' uncertainty is scaled by how far the last rows were off
-        predictions from those before them. Infinite while there are too few rows.
+        It includes the noise, because noise and errors that no parameter describes cannot be
+        distinguished. The uncertainty of the parameters is scaled by the errors of predictions of
+        the last rows from the rows before. Infinite while there are too few rows.
         """
         if len(observations) < FEWEST:
             return np.inf
@@ -117,7 +117,7 @@ class RunningCalibration:
         return float(1 - then / now)
 
     def workspace(self, observations: Observations) -> tuple[np.ndarray, np.ndarray]:
-        """Allowed postures (n, joints) [rad, m], and the deviation (n,) [m] expected in each."""
+        """Allowed postures (n, joints) [rad, m], and the expected error (n,) [m] in each."""
         calibration = self.calibration(observations)
         return self._probes, self._expected(calibration, self._probes, observations.optics)
 
@@ -126,11 +126,11 @@ class RunningCalibration:
     ) -> np.ndarray | None:
         """The next posture (joints,) [rad, m]; None if all were measured.
 
-        The one farthest from those measured while there is no calibration, then the most
-        informative one. Candidates nearer to an avoided posture than to a measured one are left
-        out, and the more are avoided, the nearer candidates are to measured ones. So are those
-        where a camera would see less than half of its board, unless nothing else remains.
-        Avoided are postures (joints,) in which the target was not seen, or that were skipped.
+        While there is no calibration, it is the one farthest from all measured postures; later, the
+        most informative one. Candidates nearer to an avoided posture (joints,) than to a measured
+        one are left out; the more postures are avoided, the nearer candidates are to measured ones.
+        Candidates in which a camera would see less than half of its board are left out, too, unless
+        no others remain. Postures are avoided if the target was not seen there, or if skipped.
         """
         if self.is_ready(observations):
             best = next((one for one, _ in self._most_informative(observations, avoided, 1)), None)
@@ -141,7 +141,7 @@ class RunningCalibration:
     def _candidates(
         self, observations: Observations, avoided: list[np.ndarray]
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Numbers (n,) of postures to choose from, and how far (n,) [m] from known ones."""
+        """Indices (n,) of postures to choose from, and their distances (n,) [m] to known ones."""
         joints, known = self._postures.joints, np.array([*observations.joints, *avoided])
         (fresh,) = np.nonzero((cdist(joints, known, "chebyshev") > 2 * REACHED).all(axis=1))
         gaps = cdist(joints[fresh] * self._scale, known * self._scale)
@@ -149,15 +149,15 @@ class RunningCalibration:
         ratios = to_measured.min(axis=1) / to_avoided.min(axis=1, initial=np.inf)
         share = min(1.0, len(observations) / max(1, len(avoided)))
         largest = max(share, ratios.min(initial=np.inf))
-        in_sight = ratios <= largest  # most likely
+        in_sight = ratios <= largest  # the target is most likely visible there
         return fresh[in_sight], gaps[in_sight].min(axis=1)
 
     def _most_informative(
         self, observations: Observations, avoided: list[np.ndarray], count: int
     ) -> Iterator[tuple[int, np.ndarray]]:
-        """Of candidates, numbers of postures as `most_informative` yields them.
+        """Indices of postures and covariances, as `most_informative` yields them for candidates.
 
-        A picture has the slopes of its own posture, and counts as sure as the nearest picture.
+        A predicted picture has the slopes of its own posture, and the noise of the nearest picture.
         """
         calibration, optics = self.calibration(observations), None
         numbers, _ = self._candidates(observations, avoided)
@@ -178,10 +178,10 @@ class RunningCalibration:
             yield int(numbers[best]), covariance
 
     def check(self, observations: Observations) -> str | None:
-        """A message if the last rows contradict those before; otherwise None."""
+        """A message if the last rows contradict the rows before; otherwise None."""
         for count, gate, far in ((1, WILD, FAR), (ROW, GATE, 0.0)):
             before = len(observations) - count
-            # the first calibrations are worse than their covariances
+            # the covariances of the first calibrations are too optimistic
             fewest = FEWEST if count == ROW else 0
             if before < fewest or not self.is_ready(observations[: max(0, before)]):
                 continue
@@ -201,7 +201,7 @@ class RunningCalibration:
         return None
 
     def _surprise(self, observations: Observations) -> float:
-        """How much the last rows surprised calibrations of those before them; at least 1."""
+        """The median surprise of the last rows, each by the rows before it; at least 1."""
         count, found = len(observations), [1.0]
         for before in range(count - LAST, count):
             if self.is_ready(observations[: max(0, before)]):
@@ -217,9 +217,9 @@ class RunningCalibration:
         optics: Optics | None = None,
         surprise: float = 1.0,
     ) -> np.ndarray:
-        """Deviations (n,) [m] of measured positions from predicted ones.
+        """Expected deviations (n,) [m] of measured positions from predicted ones.
 
-        By cameras after one shift and turn of both ends, and with the noise across their lines.
+        With cameras, after a common shift and turn of both ends, with the noise across their lines.
         """
         noise = 3 * calibration.estimate.noise[0] ** 2 if optics is None else optics.noise**2
         spread = calibration.position_covariances(joints, shifted=optics is not None)

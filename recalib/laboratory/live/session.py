@@ -1,4 +1,4 @@
-"""Calibration of an arm that moves and measures by itself; see docs/live.md."""
+"""A session of moves and measurements that calibrates an arm; see docs/live.md."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,11 +24,11 @@ from recalib.station.interface import Station, StationFailed
 if TYPE_CHECKING:  # it needs OpenCV
     from recalib.station.pictures import BoardInPictures
 
-USELESS = 0.05  # a part of the predicted error: what gains less is not worth ten moves
-SOON = 20  # rows before which that is not asked: errors beyond geometry do not show in fewer
-NARROWEST = 2 * REACHED  # rad: postures that are nearer count as one
-TRIES = 3  # measurements in a posture before it is given up
-LOST = 10  # postures in a row in which the target is not seen: it is lost, or they are too far
+USELESS = 0.05  # of the predicted error: a smaller reduction is not worth ten moves
+SOON = 20  # rows before this is judged: errors beyond geometry do not show in fewer
+NARROWEST = 2 * REACHED  # rad: nearer postures count as one
+TRIES = 3  # attempts to measure in a posture
+LOST = 10  # successive postures without sight of the target: it is lost, or they are too far
 
 
 @dataclass(frozen=True)
@@ -36,16 +36,16 @@ class LiveSettings:
     """Settings of a live calibration.
 
     Attributes:
-        error: m that the predicted mean error should have; None to go on while it is of use.
-        most: rows in the table, at which it ends.
-        span: rad that each joint may move either way from where it stood at first; half a metre for
-            each rad where it slides.
-        box: in which the nominal tool link stays; None where the limits of the joints are enough.
+        error: m, predicted mean error at which to end; None to go on while more rows help.
+        most: rows in the table at which to end.
+        span: rad, the largest distance of each joint from the first posture; for a sliding joint,
+            half a metre for each rad.
+        box: that the nominal tool link must not leave; None if joint limits are enough.
         speed: of the fastest joint, as a fraction of its limit.
-        floor: m, the height in the arm's base above which all moves; None without a floor.
-        self_collision: whether links keep apart.
+        floor: m, the height of the floor in the arm's base; None without a floor.
+        self_collision: whether to check that links keep apart.
 
-    Raises InvalidSetting: no calibration goes by these.
+    Raises InvalidSetting: a value out of range.
     """
 
     error: float | None = None
@@ -70,11 +70,11 @@ class LiveSettings:
 
 
 class Interrupted(RecalibError):
-    """The calibration was interrupted by a person."""
+    """A person interrupted the calibration."""
 
 
 class Answer(Enum):
-    """The answer of a person to a proposed move of the arm."""
+    """A person's answer to a proposed move of the arm."""
 
     MOVE, SKIP, END = "move", "skip the posture for good", "end"
 
@@ -82,14 +82,14 @@ class Answer(Enum):
 class Move(NamedTuple):
     """A proposed move from start to goal."""
 
-    start: np.ndarray  # (joints,) rad, m where the arm stands
-    goal: np.ndarray  # (joints,) rad, m where it is to go
-    tool_before: np.ndarray  # (3,) m, the nominal tool in the arm's base
-    tool_after: np.ndarray  # likewise
+    start: np.ndarray  # (joints,) rad, m
+    goal: np.ndarray  # (joints,) rad, m
+    tool_before: np.ndarray  # (3,) m, position of the nominal tool in the arm's base at the start
+    tool_after: np.ndarray  # (3,) m, at the goal
 
 
 class Ended(NamedTuple):
-    """Why a session ended, in words, and how many rows its table has."""
+    """The reason why a session ended, and the number of rows in its table."""
 
     reason: str
     rows: int
@@ -113,27 +113,27 @@ def calibrate_live(
     goes wrong, it stops the station and commands no further move.
 
     Args:
-        opening: makes the station.
-        arm: the nominal one.
+        opening: opens the station.
+        arm: the nominal arm.
         table: CSV, new or begun by this function.
         ask: called before each move, returns whether to make it; default: all are made.
         description: frames, distances and columns that the table cannot express.
-        on_progress: called with lines for people.
+        on_progress: called with lines of text.
         on_row: called with the rows so far, and the running calibration.
-        pictures: what reads the pictures of the column `picture`, if rows are measured by them.
-        shapes: of the links, see `load_shapes`; without them, only the tool keeps off the floor.
+        pictures: reads the pictures in the column `picture`, if rows are measured by a camera.
+        shapes: of the links, see `load_shapes`; without them, only the tool must clear the floor.
 
     Raises RecalibError: UnsuitableRobot, StationFailed, Interrupted, or rows that do not fit.
     """
     if len(arm.coupling.columns) < len(arm.joints):
-        followers = f"of {', '.join(arm.joints)} some follow others by <mimic>"
+        followers = f"some of {', '.join(arm.joints)} follow other joints by <mimic>"
         raise UnsuitableRobot(
             f"{followers}; expected: a motor for each joint; try: a table for recalib calibrate"
         )
     description = description or Description()
     record = Record(table, arm, description, pictures)
     if record.dropped:
-        on_progress(f"a row without its end was dropped: {record.dropped!r}")
+        on_progress(f"an incomplete row was dropped: {record.dropped!r}")
     station = None
     try:
         station = Guarded(opening, arm)
@@ -177,7 +177,7 @@ def calibrate_live(
 
 @dataclass(frozen=True)
 class _Session:
-    """A calibration that goes on: the station, the rows so far, and the postures to come."""
+    """A running session: the station, the rows so far, and the postures to choose from."""
 
     station: Guarded
     record: Record
@@ -185,14 +185,14 @@ class _Session:
     postures: AllowedPostures
     running: RunningCalibration
     on_progress: Callable[[str], None]
-    avoided: list[np.ndarray]  # skipped by a person, or without sight of the target; it grows
+    avoided: list[np.ndarray]  # postures without sight of the target, or skipped; it grows
 
     def run(
         self,
         ask: Callable[[Move], Answer],
         on_row: Callable[[Observations, RunningCalibration], None],
     ) -> str:
-        """Measure until it is enough; why it is."""
+        """Measure until the rows are enough, and return the reason."""
         rows, unseen = self.record.observations or self._measured(), 0
         if rows is None:
             raise StationFailed(
@@ -226,7 +226,7 @@ class _Session:
                 )
 
     def _go_to(self, goal: np.ndarray, ask: Callable[[Move], Answer]) -> Answer:
-        """Move to a posture, unless a person does not want it."""
+        """Move to a posture if a person agrees, and return the answer."""
         for posture in self.postures.path(self.station.angles(), goal):
             start = self.station.angles()
             self.postures.check(start, posture)
@@ -234,13 +234,13 @@ class _Session:
             answer = ask(Move(start, posture, tool(start), tool(posture)))
             if answer is not Answer.MOVE:
                 return answer
-            # a person may have moved it while he was asked
+            # a person may have moved the arm while the question was open
             self.postures.check(self.station.angles(), posture)
             self.station.move(posture, self.settings.speed)
         return Answer.MOVE
 
     def _measured(self) -> Observations | None:
-        """All rows with one more, which is on the disk; None if the target is not seen."""
+        """All rows with a new one, which is on the disk; None if the target is not seen."""
         for left in reversed(range(TRIES)):
             try:
                 angles, cells = self.station.measure()
@@ -262,7 +262,7 @@ class _Session:
         return rows
 
     def _enough(self, rows: Observations) -> str | None:
-        """Why the rows are enough; None if they are not."""
+        """The reason why the rows are enough; None if they are not."""
         count, settings = len(rows), self.settings
         most = f"the limit of {count} rows is reached" if count >= settings.most else None
         if not self.running.is_ready(rows):
@@ -274,7 +274,7 @@ class _Session:
             return most
         total = f"the predicted error is {1e3 * error:.3g} mm"
         self.on_progress(f"row {count}: {total}")
-        # few pictures say nothing of postures that the camera does not see
+        # few pictures do not show the errors in postures that the camera has not seen
         trusted = rows.optics is None or count >= SOON
         if settings.error is not None and error <= settings.error and trusted:
             return f"{total}; {1e3 * settings.error:g} mm was requested"

@@ -1,1 +1,1 @@
-"""Pictures of a board, as measurements of an arm."""
+"""Pictures of a board as measurements of an arm."""

@@ -1,4 +1,4 @@
-"""From pictures of a board, and the joints at each, to what `recalib calibrate` reads."""
+"""Search of a board in pictures, calibration of the lens, and refusal of bad pictures."""
 
 import os
 import re
@@ -32,10 +32,10 @@ from recalib.vision.lens_search import FEWEST, FoundLens, find_lens
 from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import board_pose, good_corners, reprojection
 
-ENOUGH = 10  # pictures
-SOFTER = 2.0  # times the median blur: so much more is a picture that moved or is out of focus
+ENOUGH = 10  # usable pictures
+SOFTER = 2.0  # times the median blur: a picture with more moved or is out of focus
 DIGITS = re.compile(r"(\d+)")
-WORSE = 4.0  # times the median reprojection error
+WORSE = 4.0  # times the median reprojection error: a picture with more is refused
 
 
 def observe(
@@ -51,13 +51,13 @@ def observe(
     """Find a board in pictures.
 
     Args:
-        joints: a table (CSV) with a column `picture`, which names them.
-        board: the description of the board (TOML), which has the name of the file.
+        joints: a table (CSV) with joint coordinates and a column `picture` with file names.
+        board: the description of the board (TOML); the board is named after this file.
         lens: a calibration of the lens (YAML of ROS or OpenCV; default: estimated).
-        camera: its name, among several.
-        least: how many pictures have to be of use.
+        camera: name of the camera; needed if there are several.
+        least: the smallest number of usable pictures.
 
-    Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.
+    Raises RecalibError: a name or a file that cannot be used, or too few usable pictures.
     """
     if not NAME.fullmatch(camera):
         raise InvalidSetting("--name", camera, "letters, digits, _ and -")
@@ -68,11 +68,11 @@ def observe(
     names = table.cells[PICTURE]
     if twice := [name for name, count in Counter(names).items() if count > 1]:
         raise InvalidFile(table.path, f"{twice[0]!r} is in more than one row")
-    for name, unit in table.units.items():  # a joint without a number is refused before the search
+    for name, unit in table.units.items():  # refuse invalid joints before the long search
         if quantity := next((kind for kind in (ANGLE, LENGTH) if unit in kind.units), None):
             table.numbers(name, quantity)
     if not Path(folder).is_dir():
-        raise InvalidFile(folder, "there is no such folder of pictures")
+        raise InvalidFile(folder, "there is no such folder")
     on_progress(f"the board in {len(names)} pictures")
     pictures = [
         _searched(Path(folder) / name, row, name, sheet) for row, name in enumerate(names, 1)
@@ -83,15 +83,15 @@ def observe(
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
     on_progress("the lens" if given is None else "poses")
     compared = _compared(pictures, size, given is not None)
-    own, pictures = _posed(compared, sheet, size, given, least)
+    estimated, pictures = _posed(compared, sheet, size, given, least)
     listed = {os.path.abspath(Path(folder) / name) for name in names}
     others = [path.name for path in pictures_in(folder) if os.path.abspath(path) not in listed]
     named = "_".join(NAME.findall(Path(board).stem)) or "board"
-    return Observed(table, sheet, own, given, in_hand, pictures, others, camera, named)
+    return Observed(table, sheet, estimated, given, in_hand, pictures, others, camera, named)
 
 
 def pictures_in(folder: AnyPath) -> list[Path]:
-    """The pictures in a folder by their names, with numbers as such: 2.png is before 10.png."""
+    """The pictures in a folder, sorted by name with numbers by value: 2.png precedes 10.png."""
     return sorted(
         (path for path in Path(folder).iterdir() if cv2.haveImageReader(str(path))),
         key=lambda path: [
@@ -101,7 +101,7 @@ def pictures_in(folder: AnyPath) -> list[Path]:
 
 
 def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
-    """A picture with its corners, or the reason why not."""
+    """A picture with its corners, or with the reason why it is refused."""
     picture = Picture(row, name)
     try:
         grey = read_picture(path)
@@ -115,7 +115,7 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
 
 
 def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool) -> list[Picture]:
-    """The pictures, refused if of another size (`by_lens`: the lens's), repeated, or blurred."""
+    """Refuse pictures that are repeated, blurred, or not of this size (`by_lens`: of the lens)."""
     expected = "expected, as by the lens" if by_lens else "expected"
     first: dict[str, str] = {}
     done = []
@@ -142,7 +142,7 @@ def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool)
 def _posed(
     pictures: list[Picture], board: Board, size: tuple[int, int], given: Lens | None, least: int
 ) -> tuple[FoundLens, list[Picture]]:
-    """The lens by the pictures, and these with their poses; those that fit badly are refused."""
+    """The lens estimated from pictures, and the pictures with poses; bad fits are refused."""
     while True:
         views = views_of(board, pictures)
         if len(views) < max(least, FEWEST):
@@ -151,14 +151,14 @@ def _posed(
                 f"{len(views)} of {len(pictures)} pictures can be used; expected: at least"
                 f" {max(least, FEWEST)}{first}"
             )
-        own = find_lens(views, size)
+        estimated = find_lens(views, size)
         if given is not None:
-            doubt_of(given, own, views)
-        pictures = [_measured(picture, board, given or own.lens) for picture in pictures]
+            doubt_of(given, estimated, views)
+        pictures = [_measured(picture, board, given or estimated.lens) for picture in pictures]
         most = max(WORSE * np.nanmedian([picture.error for picture in pictures]), LEAST)
         pictures = [
             picture.refused(
-                f"its corners are off by {picture.error:.2f} px: the board moved or is not flat"
+                f"its corners are {picture.error:.2f} px off: the board moved, or is not flat"
             )
             if picture.error > most
             else picture
@@ -166,7 +166,7 @@ def _posed(
         ]
         good = views_of(board, pictures)
         if [len(view.numbers) for _, view in good] == [len(view.numbers) for _, view in views]:
-            return own, pictures  # else the lens is found anew, by the corners that fit
+            return estimated, pictures  # else the lens is estimated again, from the corners left
 
 
 def _measured(picture: Picture, board: Board, lens: Lens) -> Picture:

@@ -1,4 +1,4 @@
-"""What was found in pictures of a board, and the folder that `recalib calibrate` reads."""
+"""Corners, lens and refusals of pictures of a board, and the folder for `recalib calibrate`."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -18,14 +18,14 @@ from recalib.vision.lens_search import FoundLens, View, reprojection_error
 from recalib.vision.lenses import Lens
 from recalib.vision.views import optics_kinds
 
-NAME = re.compile(r"[\w-]+", re.ASCII)  # of a camera or a board, as TOML and ROS take it
+NAME = re.compile(r"[\w-]+", re.ASCII)  # of a camera or a board, as TOML and ROS allow
 OBSERVED, CORNERS, SETUP, LENS = "measurements.csv", "corners.csv", "setup.toml", "lens.yaml"
-WIDE = 300  # px, of a picture on the page
-LEAST = 0.5  # px: a reprojection error as small is never a reason
-# What a given lens may leave, over one from the pictures: it is as good, or cannot be the same.
+WIDE = 300  # px, width of a picture on the page
+LEAST = 0.5  # px: a smaller reprojection error is never a reason for refusal
+# reprojection error of a given lens over that of the estimated one: equally good, another lens
 SIMILAR, OTHER = 1.1, 5.0
-CHANCE = 10.0  # how much more a given lens leaves by chance, to a parameter, over the noise
-SURE, ZOOMED = 5.0, 0.01  # deviations of focal lengths, and the part by which none may be off
+CHANCE = 10.0  # surplus of squared errors for each parameter, over the noise, that chance explains
+SURE, ZOOMED = 5.0, 0.01  # standard deviations of a focal length; largest relative difference
 UNSETTLED = (
     "the estimation of the lens did not converge; try: pictures that"
     " show the board tilted, near and far, and in all parts of the picture"
@@ -36,13 +36,13 @@ UNSETTLED = (
 class Picture:
     """A picture and the corners found in it."""
 
-    row: int  # in the table, from 1
+    row: int  # in the table, counted from 1
     name: str  # of the file
     size: tuple[int, int] | None = None  # width and height [px]; None if it cannot be read
-    small: np.ndarray | None = None  # a small grey copy for the page; None likewise
+    small: np.ndarray | None = None  # a small grey copy for the page; None if it cannot be read
     digest: str = ""  # of the pixels
     corners: Corners | None = None  # None if it is refused
-    reason: str = ""  # why it is refused; empty if it is not
+    reason: str = ""  # for the refusal; empty if it is used
     error: float = np.nan  # px, the root mean square of the corners' reprojection errors
     pose: np.ndarray | None = None  # (4, 4) m of the board in the camera
 
@@ -56,17 +56,17 @@ class Observed:
 
     table: Table  # with the joints of each picture
     board: Board  # in all pictures
-    own: FoundLens  # estimated from these pictures
-    given: Lens | None  # if it is known; otherwise the estimated one counts
+    own: FoundLens  # the lens estimated from these pictures
+    given: Lens | None  # by the user; None to use the estimated one
     in_hand: bool  # whether the camera is on the hand
-    pictures: Sequence[Picture]  # all of the table
+    pictures: Sequence[Picture]  # all in the table
     unlisted: Sequence[str]  # names of pictures that are not in the table
-    camera: str = "camera"  # its name among several
-    board_name: str = "board"  # likewise
+    camera: str = "camera"  # name of the camera, if there are several
+    board_name: str = "board"  # name of the board, if there are several
 
     @property
     def lens(self) -> Lens:
-        """The lens in all pictures."""
+        """The lens of all pictures: the given one, or else the estimated one."""
         return self.given or self.own.lens
 
     @property
@@ -76,7 +76,7 @@ class Observed:
 
     @property
     def error(self) -> float:
-        """px, the root mean square of all reprojection errors along an axis."""
+        """The root mean square of all reprojection errors along an axis [px]."""
         squares = [picture.error**2 for picture in self.used]
         return float(np.sqrt(np.mean(squares) / 2))
 
@@ -89,7 +89,7 @@ class Observed:
 
     @property
     def setup(self) -> str:
-        """A TOML of the board, the camera and the lens's source."""
+        """A TOML that describes the board, the camera and the source of the lens."""
         return (
             f'camera = "{IN_HAND if self.in_hand else FIXED}"\n'
             f"lens_from_pictures = {str(self.given is None).lower()}\n"
@@ -97,7 +97,7 @@ class Observed:
         ) + self.board.described()
 
     def files(self) -> dict[str, bytes]:
-        """The files of a folder for `recalib calibrate`, by their names."""
+        """The files of a folder for `recalib calibrate`, by name."""
         corners = (
             {PICTURE: shown.name, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
             for shown in self.used
@@ -113,9 +113,9 @@ class Observed:
         }
 
     def _measurements(self) -> Iterator[dict[str, str]]:
-        """Rows of pictures and joints, with poses of the board, or of the camera in it."""
+        """Rows of pictures and joints, with poses of the board in the camera, or the inverse."""
         table = self.table
-        # what a live calibration measured by the same pictures is measured anew
+        # poses that a live calibration measured in the same pictures are replaced
         vectors = (POSITIONS, *ROTATIONS, NOMINAL, ERRORS)
         measured = {PICTURE, *(name for kind in vectors for name in kind.headings)}
         joints = [name for name in table.cells if name not in measured]
@@ -128,33 +128,33 @@ class Observed:
 
 
 def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str | None:
-    """What is doubtful about the lens of some pictures, in a sentence without its full stop.
+    """A warning about the lens of pictures, without its full stop; None if there is none.
 
-    It is the given lens, or else their own, which is estimated from them.
+    It is about the given lens, or else about the lens estimated from these pictures.
 
-    Raises RecalibError: a given lens that cannot be theirs.
+    Raises RecalibError if the given lens cannot be that of the pictures.
     """
     if given is None:
         return None if own.converged else UNSETTLED
-    left = reprojection_error(views, given)
+    error = reprojection_error(views, given)
     free = sum(2 * len(view.numbers) - 6 for _, view in views)
-    surplus = free * ((left / own.error) ** 2 - 1) / len(optics_kinds(own.lens))
+    surplus = free * ((error / own.error) ** 2 - 1) / len(optics_kinds(own.lens))
     known, focal = (lens.matrix.diagonal()[:2] for lens in (given, own.lens))
     off = np.abs(known - focal)
     sure = (off > SURE * own.deviations) & own.converged
-    if not sure.any() and (left <= SIMILAR * own.error or surplus < CHANCE):
+    if not sure.any() and (error <= SIMILAR * own.error or surplus < CHANCE):
         return None
     lengths, others = (f"{x:.1f} and {y:.1f}" for x, y in (known, focal))
     found = (
         f"the given lens has focal lengths of {lengths} px, and a reprojection error of"
-        f" {left:.3g} px in these pictures; one estimated from them, {own.lens.model},"
+        f" {error:.3g} px in these pictures; one estimated from them, {own.lens.model},"
         f" has {others} px (deviation {own.deviations.max():.2g} px), and {own.error:.3g} px"
     )
-    if left > max(OTHER * own.error, LEAST) or (sure & (off > ZOOMED * focal)).any():
+    if error > max(OTHER * own.error, LEAST) or (sure & (off > ZOOMED * focal)).any():
         raise RecalibError(f"{found}: it is not this camera's; try: without --lens")
     return f"{found}; check that it belongs to this camera and that focus and zoom are unchanged"
 
 
 def views_of(board: Board, pictures: Sequence[Picture]) -> list[View]:
-    """The corners in pictures that were not refused, each with the board."""
+    """The corners in pictures that were not refused, each paired with the board."""
     return [(board, picture.corners) for picture in pictures if picture.corners is not None]

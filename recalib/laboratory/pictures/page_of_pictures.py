@@ -1,4 +1,4 @@
-"""The HTML page of pictures: what each shows, and how they cover lens and workspace."""
+"""The HTML page of pictures: the corners in each, and their coverage of lens and workspace."""
 
 from base64 import b64encode
 
@@ -10,7 +10,7 @@ from recalib.laboratory.pictures.observed import WIDE, Observed, Picture
 from recalib.laboratory.report.page import COLOURS, STYLE, figure_of, svg_of
 from recalib.laboratory.report.templates import render
 
-DOT, COLOUR = 2, (178, 114, 0)  # px, and blue as OpenCV has it
+DOT, COLOUR = 2, (178, 114, 0)  # px, and blue in OpenCV's order (BGR)
 QUALITY = 70  # of JPEG
 
 
@@ -24,7 +24,7 @@ def page_of_pictures(result: Observed) -> bytes:
 
 
 def _small(picture: Picture) -> str:
-    """JPEG in base64, with its corners; empty without a picture."""
+    """A small picture with its corners, as JPEG in base64; empty if it could not be read."""
     if picture.small is None or picture.size is None:
         return ""
     small, scale = cv2.cvtColor(picture.small, cv2.COLOR_GRAY2BGR), WIDE / picture.size[0]
@@ -36,7 +36,7 @@ def _small(picture: Picture) -> str:
 
 @rc_context(STYLE)
 def _coverage(result: Observed) -> str:
-    """Corners on the lens, and boards before the camera."""
+    """A drawing of all corners on the lens, and of all boards in front of the camera."""
     used = result.used
     pixels = np.concatenate([picture.corners.pixels for picture in used if picture.corners])
     places = np.array([picture.pose[:3, 3] for picture in used if picture.pose is not None])

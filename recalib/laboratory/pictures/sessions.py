@@ -1,6 +1,6 @@
-"""Folders that `observe` wrote, as a data set: poses and what their pixels say of the optics.
+"""A data set from folders that `observe` wrote: poses, and the information of pixels on optics.
 
-Each folder has pictures of one board by one camera. Folders may share a camera, or a board.
+Each folder holds one session: one camera, one board. Folders may share a camera or a board.
 """
 
 from collections.abc import Sequence
@@ -42,27 +42,27 @@ LAYOUT = (
     Columns("pixels", ("u", "v"), PIXEL, needed=True),
 )
 MOST_CORNERS = 1_000_000
-FLAT = 1e-3  # the width of corners in a picture over their length: less is a line
-SMALLEST, BENT = 3.0, 0.3  # px of a board, rms; the part of that which distortion may move a corner
+FLAT = 1e-3  # width of the corners in a picture over their length: less is a line
+SMALLEST, BENT = 3.0, 0.3  # RMS size of a board [px]; largest shift by distortion, as its fraction
 
 
 @dataclass(frozen=True)
 class Session:
     """Pictures of a board by a camera."""
 
-    folder: Path  # that observe wrote
+    folder: Path  # written by observe
     camera: str
     board_name: str
     in_hand: bool  # whether the camera is on the hand
     fitted: bool  # whether the lens is estimated from the pictures
     board: Board  # in all pictures
-    lens: Lens  # likewise
+    lens: Lens  # of all pictures
     rows: Measurements
     views: list[Corners]  # the corners in each row's picture
 
     @classmethod
     def read(cls, folder: Path, arm: Arm) -> "Session":
-        """The session in a folder, whose table has the joints of an arm. Raises InvalidFile."""
+        """Read a session from a folder; its table must fit the arm. Raises InvalidFile."""
         setup = read_toml(path := folder / SETUP)
         camera, fitted = setup.get("camera"), setup.get("lens_from_pictures")
         if camera not in CAMERAS or not isinstance(fitted, bool):
@@ -76,7 +76,7 @@ class Session:
         return cls(folder, names[0], names[1], camera == IN_HAND, fitted, board, lens, rows, views)
 
     def conflict(self, other: "Session") -> str | None:
-        """Why another session cannot be in the same cell, if it cannot."""
+        """Why another session contradicts this one; None if both can be in the same cell."""
         camera, board = self.camera == other.camera, self.board_name == other.board_name
         if camera and board:
             return (
@@ -118,30 +118,30 @@ def calibrate_pictures(
         folders: one for each camera and board.
         urdf, description, tool, base, on_progress: see `calibrate_arm`.
 
-    Raises RecalibError, as `calibrate_arm`.
+    Raises RecalibError like `calibrate_arm`.
     """
     file, arm, known = opened(urdf, description, tool, base)
     on_progress(file.origin)
     if len(folders) > 1 and (known.instrument is not None or known.target is not None):
         reason = "the description has an instrument or a target, which is for one camera"
-        raise InvalidFile(folders[1], f"{reason}; try: without")
+        raise InvalidFile(folders[1], f"{reason}; try: omit it")
     return identified(arm, read_folders([*map(Path, folders)], arm, known), file, on_progress)
 
 
 def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataSet:
-    """What the pixels in folders say of an arm.
+    """The data set of an arm from folders.
 
-    Raises InvalidFile: not as observe wrote it, or not of the same cameras and boards.
+    Raises InvalidFile: a folder that is not as observe wrote it, or contradictory folders.
     """
     sessions = [Session.read(folder, arm) for folder in folders]
     for before, session in combinations(sessions, 2):
         if conflict := before.conflict(session):
             raise InvalidFile(session.folder, conflict)
-    lenses, doubts = {}, []  # for which the optics are zero
+    lenses, doubts = {}, []  # these lenses correspond to optics of zero
     for camera in dict.fromkeys(session.camera for session in sessions):
         lenses[camera], doubt = _lens_of([one for one in sessions if one.camera == camera])
         doubts += [doubt] if doubt else []
-    # the optics of each board come first, then of each lens that is estimated
+    # columns of optics: first those of each board, then those of each estimated lens
     parts = {("board", one.board_name): np.arange(len(BOARD)) for one in sessions}
     fitted = [one.camera for one in sessions if one.fitted]
     parts |= {("camera", name): optics_kinds(lenses[name]) for name in fitted}
@@ -149,11 +149,11 @@ def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataS
     numbers = dict(zip(parts, np.split(np.arange(len(kinds)), np.cumsum(sizes)[:-1]), strict=True))
 
     def lens_files(optics: np.ndarray) -> dict[str, bytes]:
-        """Files of the lenses with corrections (o,), by their names."""
+        """Files of the lenses with corrections (o,), by file name."""
         files = {}
         for camera, lens in lenses.items():
-            own = numbers.get(("camera", camera))
-            moved = None if own is None else moved_lens(lens, optics[own])
+            columns = numbers.get(("camera", camera))
+            moved = None if columns is None else moved_lens(lens, optics[columns])
             name = LENS if len(lenses) == 1 else f"lens_{camera}.yaml"
             files[name] = (moved or lens).as_ros().encode()
         return files
@@ -163,14 +163,14 @@ def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataS
         lens, kind = lenses[session.camera], (session.fitted, session.in_hand)
         views = [sighting(session.board, lens, view, *kind) for view in session.views]
         found, part = optics_of(lens, views)
-        own = [numbers["board", session.board_name]]
+        columns = [numbers["board", session.board_name]]
         if session.fitted:
-            own.append(numbers["camera", session.camera])
-        place = np.eye(len(kinds))[np.concatenate(own)]  # its columns among all
-        slopes, gradient = part.slopes @ place, part.gradient @ place
+            columns.append(numbers["camera", session.camera])
+        embed = np.eye(len(kinds))[np.concatenate(columns)]  # this session's columns among all
+        slopes, gradient = part.slopes @ embed, part.gradient @ embed
         poses.append(found)
         arrays.append(
-            (part.spread, slopes, place.T @ part.information @ place, gradient, part.pixels)
+            (part.spread, slopes, embed.T @ part.information @ embed, gradient, part.pixels)
         )
     cameras = _in_words("camera", [session.camera for session in sessions])
     boards = _in_words("board", [session.board_name for session in sessions])
@@ -205,7 +205,7 @@ def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataS
 
 
 def _lens_of(sessions: Sequence[Session]) -> tuple[Lens, str | None]:
-    """The lens of a camera, by the pictures of its sessions or as given, and a doubt about it."""
+    """The lens of a camera, estimated from its sessions or as given, and a warning about it."""
     views = [(session.board, view) for session in sessions for view in session.views]
     given, fitted = sessions[0].lens, sessions[0].fitted
     if len(views) < FEWEST_VIEWS:
@@ -215,14 +215,14 @@ def _lens_of(sessions: Sequence[Session]) -> tuple[Lens, str | None]:
 
 
 def _in_words(kind: str, names: Sequence[str]) -> list[str]:
-    """Names of cameras or boards in a sentence."""
+    """Names of cameras or boards for a sentence."""
     return [f"{kind} {name}" if len(set(names)) > 1 else f"the {kind}" for name in names]
 
 
 def _views(path: Path, rows: Measurements, board: Board, size: tuple[int, int]) -> list[Corners]:
-    """The corners in each row's picture: rows may have been taken out or moved.
+    """The corners in each row's picture; the user may have removed or reordered rows.
 
-    Raises InvalidFile: corners that no picture of the board can have.
+    Raises InvalidFile if no picture of the board can have these corners.
     """
     if PICTURES.name not in rows.columns:
         raise InvalidFile(rows.path, f"column {PICTURE!r} is missing")
@@ -253,9 +253,9 @@ def _views(path: Path, rows: Measurements, board: Board, size: tuple[int, int]) 
 
 
 def _are_of(points: np.ndarray, pixels: np.ndarray) -> bool:
-    """Whether pixels (c, 2) can be of points (c, 3) of a board, whatever the lens.
+    """Whether pixels (c, 2) can show points (c, 3) of a board, for any lens.
 
-    A homography leaves the distortion of the lens. It is of a board that faces the camera.
+    A homography must fit them up to the lens's distortion, with the board facing the camera.
     """
     size = np.sqrt(np.mean(np.sum((pixels - pixels.mean(axis=0)) ** 2, axis=1)))
     homography, _ = cv2.findHomography(points[:, :2], pixels) if size > SMALLEST else (None, None)

@@ -1,1 +1,1 @@
-"""Checks of a user's inputs against each other, before and after the fit."""
+"""Checks of whether a user's inputs agree with each other, before and after the fit."""

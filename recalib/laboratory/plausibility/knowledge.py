@@ -1,7 +1,7 @@
-"""Frames and distances of a description, checked against the measurements.
+"""Checks of described frames and distances against the measurements.
 
-They are accepted if an arm could be as they say. A rotation of the wrong sign, inches, or the frame
-of something else would make another arm.
+A description is accepted if the errors of some real arm could explain it. A rotation of the wrong
+sign, inches, or the frame of something else would need a different arm.
 """
 
 from contextlib import suppress
@@ -25,15 +25,15 @@ from recalib.laboratory.plausibility.mistakes import Mistaken, likely_mistake
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 
-ALIKE = 2.0  # times the least error: as good an explanation
-STRETCHED = 0.2  # of a distance: no arm is so much longer or shorter than described
+ALIKE = 2.0  # times the least error: explanations within it are equally good
+STRETCHED = 0.2  # of a distance: no arm is longer or shorter than its URDF by more
 
 
 def checked_frames(arm: Arm, observations: Observations, known: Description) -> Frames:
-    """Initial estimates of the frames at both ends of the nominal arm, as well known as stated.
+    """Initial estimates of the frames at both ends of the nominal arm, with the stated deviations.
 
-    Raises Mistaken: without a frame that is described, the measurements are explained.
-    NoInitialEstimate: nothing explains them; with the likely mistake, if there is one.
+    Raises Mistaken if the measurements fit only without a described frame, and NoInitialEstimate,
+    with the likely mistake if there is one, if they do not fit at all.
     """
     described = {"base": known.instrument, "target": known.target}
     stated = {name: pose for name, pose in described.items() if pose is not None}
@@ -65,26 +65,26 @@ def checked_frames(arm: Arm, observations: Observations, known: Description) -> 
 
 
 def mistake_in(arm: Arm, observations: Observations, frames: Frames | None = None) -> str | None:
-    """A mistake without which the nominal arm explains rows far better, in words.
+    """The mistake, in words, whose correction makes the nominal arm fit the rows far better.
 
-    None if there is none, and of balls in sockets or several targets. Frames are those that explain
-    the rows as they are, if there are any.
+    None if there is none, or if balls in sockets or several targets were measured. `frames`, if
+    given, explain the rows as they are.
     """
     measured = observations.measured
     if measured is None or observations.targets.any():
         return None
-    # what explains whole poses is likelier than what explains their positions alone
+    # a mistake that explains whole poses is likelier than one that explains only positions
     for part in (measured, observations.positions)[: observations.kinds]:
-        most = 2 if frames is None else 1  # of rows that fit, more would be guesses
+        most = 2 if frames is None else 1  # if the rows fit already, two would be a guess
         if mistake := likely_mistake(arm, observations.joints, part, FARTHEST, most, frames):
             return mistake
     return None
 
 
 def frames_of(arm: Arm, data: DataSet) -> Frames:
-    """Such estimates for a data set; of several cameras, each sight is enough by itself.
+    """Initial estimates for a data set; with several sights, each alone must determine its frames.
 
-    Raises Mistaken and NoInitialEstimate, which name the sight.
+    Raises Mistaken and NoInitialEstimate; with several sights, messages name the sight.
     """
     observations = replace(data.observations, optics=None)
     if data.sights is None or len(data.sights) == 1:
@@ -102,14 +102,14 @@ def frames_of(arm: Arm, data: DataSet) -> Frames:
         off = median_error(frames, arm.forward(rows.joints), rows)
         if off > FARTHEST:
             raise Mistaken(
-                f"{name} is {1e3 * off:.0f} mm from its place by the other pictures; expected: one"
+                f"{name} is {1e3 * off:.0f} mm from its place in the other pictures; expected: one"
                 " place for each name; try: another name"
             )
     return data.known.stated_in(frames)
 
 
 def check_distances(arm: Arm, data: DataSet, frames: Frames) -> None:
-    """Raise Mistaken if a described distance of sockets is far from that in the frames."""
+    """Raise Mistaken if a described distance between sockets is far from the nominal distance."""
     observations, names = data.observations, data.sockets
     tool = arm.forward(observations.joints)
     for one, other, length, _ in observations.distances:
@@ -123,7 +123,7 @@ def check_distances(arm: Arm, data: DataSet, frames: Frames) -> None:
 
 
 def _gap(given: np.ndarray, found: np.ndarray) -> str:
-    """How far apart two poses (4, 4) [m] are, and the other one as a description would have it."""
+    """The difference of two poses (4, 4) [m] in words, and the found one as in a description."""
     gap = np.linalg.inv(given) @ found
     shift = 1e3 * np.linalg.norm(gap[:3, 3])
     angle = np.degrees(Rotation.from_matrix(gap[:3, :3]).magnitude())
@@ -131,6 +131,6 @@ def _gap(given: np.ndarray, found: np.ndarray) -> str:
     angles = Rotation.from_matrix(found[:3, :3]).as_euler("xyz", degrees=True)
     turn = ", ".join(f'"{angle:.0f} deg"' for angle in angles)
     return (
-        f"is {shift:.0f} mm and {angle:.0f} deg from its estimate by the measurements; expected:"
+        f"is {shift:.0f} mm and {angle:.0f} deg from its estimate; expected:"
         f" about position = [{place}], roll_pitch_yaw = [{turn}]"
     )

@@ -1,8 +1,8 @@
 """Checks of nominal positions against the nominal kinematics, before the fit.
 
-The tool positions that a controller reports reveal the most frequent mistakes in data: another
-zero, sign or order of joints, another unit, a rotated base, a forgotten tool. Each mistake is
-tried, alone and then in pairs; the one that explains the difference is named.
+The tool positions that a controller reports reveal the most frequent mistakes in data: a wrong
+zero, sign or order of joints, a wrong unit, a rotated base, a forgotten tool. Mistakes are tried
+one at a time, then in pairs; messages name the one that explains the difference.
 """
 
 from itertools import combinations
@@ -21,16 +21,16 @@ from recalib.laboratory.plausibility.steps import Step, rare_steps_of, steps_of,
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
 
-ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
-EXPLAINED = 0.2  # the part of a difference that may remain without the mistake
-SAME = 1e-6  # a difference of such parts below which two mistakes explain the same
-FEWEST = 3  # outliers that one mistake has to explain
-ENOUGH = 40  # rows to try mistakes on
-UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: less is not reported
+ALIKE = 0.01  # m: nominal positions that differ by less belong to the same arm
+EXPLAINED = 0.2  # the fraction of a difference that may remain once a mistake is corrected
+SAME = 1e-6  # if these fractions differ by less, two mistakes explain the data equally well
+FEWEST = 3  # outliers that a mistake must explain
+ENOUGH = 40  # rows on which mistakes are tried
+UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: smaller rotations and shifts are not reported
 
 
 class Mistaken(RecalibError):
-    """Measurements, or their description, that are likely wrong, or do not determine a place."""
+    """Measurements or their description are likely wrong, or do not determine a pose."""
 
 
 def check_nominal(
@@ -40,9 +40,9 @@ def check_nominal(
     base: np.ndarray | None = None,
     target: np.ndarray | None = None,
 ) -> str | None:
-    """The base or target, in words, by which nominal positions differ from nominal kinematics.
+    """The base or target, in words, that explains how nominal positions differ from the URDF.
 
-    None if they do not differ. An unknown base or target is identified anyway.
+    None if they do not differ. An unknown base or target is no mistake: it will be identified.
 
     Args:
         coordinates: (n, joints) rad, or m where a joint slides.
@@ -50,7 +50,7 @@ def check_nominal(
         base: (4, 4) m, the arm's base in the frame of the positions, if known.
         target: (4, 4) m in the tool link's frame, if known.
 
-    Raises Mistaken: they differ by something else.
+    Raises Mistaken if anything else makes them differ.
     """
     known = np.eye(4) if base is None else base
     place = np.eye(4) if target is None else target
@@ -87,23 +87,23 @@ def likely_mistake(
 ) -> str | None:
     """The mistake in data that explains most of a difference, in words; None if none does.
 
-    One step is tried first, then several. What remains counts relative to the spread of the
-    positions: an arm and positions that shrink to a point explain nothing.
+    Single steps are tried first, then pairs. Remaining errors count relative to the spread of the
+    positions: data that a step shrinks to a point would fit any arm.
 
     Args:
         coordinates: (n, joints) rad, or m where a joint slides.
         measured: (n, 3) m, positions of a point on the tool, in any frame; or poses (n, 4, 4).
-        alike: m that may remain; a turn counts by `LEVER`.
-        most_steps: mistakes at once.
-        frames: that explain the data without a mistake, if there are any. Closed forms alone may
-            miss these if few joints moved.
+        alike: m, error that may remain; rotations count as lengths by `LEVER`.
+        most_steps: the largest number of simultaneous mistakes.
+        frames: explain the data without a mistake, if given; closed forms may miss such frames if
+            few joints moved.
     """
-    rows = np.unique(np.linspace(1, len(measured) - 2, ENOUGH).astype(int))  # each has neighbours
+    rows = np.unique(np.linspace(1, len(measured) - 2, ENOUGH).astype(int))  # all with neighbours
     poses = arm.forward(coordinates[rows])
     plain = _rms(_fit(poses, measured[rows])[1])
     if frames is not None:
         plain = min(plain, _rms(_gaps(poses, measured[rows], frames.base, frames.targets[0])))
-    if plain <= MOVED:  # a perfect arm's rounding is explained by many mistakes
+    if plain <= MOVED:  # many mistakes would explain the rounding of a perfect arm
         return None
     steps = [*steps_of(arm), *(steps_of_rotations() if measured.ndim == 3 else ())]
     for count in range(1, most_steps + 1):
@@ -120,13 +120,13 @@ def likely_mistake(
             fits.append((part, _rms(gaps), gaps.max(), words))
         part, rms, largest, _ = min(fits)
         if largest <= alike and part < EXPLAINED and rms < EXPLAINED * plain:
-            # as the sign of a joint and a half turn of the next one, behind a base of any turn
+            # equally good: a joint's sign, or half a turn of the next one, if the base may turn
             return listed([words for other, *_, words in fits if other <= part + SAME], "or")
     return None
 
 
 def mistake_of_outliers(geometry: Calibration, observations: Observations) -> str | None:
-    """What is likely wrong with outliers alone, in a sentence without its full stop; or None."""
+    """The mistake that likely explains the outliers, as a clause; None if none does."""
     rows = np.flatnonzero(geometry.estimate.weights < DOUBTFUL)
     if observations.measured is None or len(rows) < FEWEST:
         return None
@@ -149,7 +149,7 @@ def mistake_of_outliers(geometry: Calibration, observations: Observations) -> st
 def _gaps(
     poses: np.ndarray, nominal: np.ndarray, base: np.ndarray, target: np.ndarray
 ) -> np.ndarray:
-    """Distances (n,) [m] from nominal positions or poses to where frames (4, 4) put the target."""
+    """Distances (n,) [m] of nominal positions or poses from the target, by both frames (4, 4)."""
     residuals = displacements(base @ poses @ target, nominal)
     residuals[:, 3:] *= LEVER
     return np.linalg.norm(residuals, axis=1)
@@ -165,7 +165,7 @@ def _fit(
     base: np.ndarray | None = None,
     target: np.ndarray | None = None,
 ) -> tuple[Frames, np.ndarray]:
-    """The frames, as far as unknown, that explain positions or poses best, and gaps (n,) [m]."""
+    """The frames, with those given, that explain positions or poses best, and gaps (n,) [m]."""
     rows = Observations(np.empty((len(nominal), 0)), nominal)
     fits = [
         (frames, _gaps(poses, nominal, frames.base, frames.targets[0]))
@@ -175,7 +175,7 @@ def _fit(
 
 
 def _words(base: np.ndarray, point: np.ndarray) -> str:
-    """A pose (4, 4) of the base and a point (3,) of the tool [m], as far as they are not zero."""
+    """The pose (4, 4) of the base and the point (3,) on the tool [m] in words; zeros left out."""
     turn, words = Rotation.from_matrix(base[:3, :3]), []
     if turn.magnitude() > UNTURNED:
         axis = turn.as_rotvec() / turn.magnitude()

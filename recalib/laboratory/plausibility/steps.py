@@ -1,4 +1,4 @@
-"""The mistakes that people make in tables, each with the step that undoes it."""
+"""Mistakes that people make in tables, each with the step that undoes it."""
 
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -12,7 +12,7 @@ from recalib.nominal.kinematics import Arm
 
 SHIFTED = "joints of the row"
 TURNS = {"degrees labelled rad": np.pi / 180, "radians labelled deg": 180 / np.pi}
-UNITS = {  # wrong units of positions, by the factor that corrects them
+UNITS = {  # wrong units of positions, by the factor that corrects the positions
     1e-3: "in millimetres labelled m",
     1e-2: "in centimetres labelled m",
     1e-1: "in millimetres labelled cm",
@@ -27,16 +27,16 @@ Change = Callable[[np.ndarray], np.ndarray]
 
 
 class Step(NamedTuple):
-    """A mistake in words, and what undoes it in joints and in positions or poses."""
+    """A mistake in words, and the changes of joints and of positions or poses that undo it."""
 
     words: str
     joints: Change = np.asarray
     measured: Change = np.asarray
-    of_neighbours: bool = False  # whether it mixes up rows, so that it takes all of them to see it
+    of_neighbours: bool = False  # whether it mixes up rows, so that it shows only in all of them
 
 
 def steps_of(arm: Arm) -> Iterator[Step]:
-    """The frequent mistakes in columns of joints and positions, which may come in pairs."""
+    """Frequent mistakes in columns of joints and positions, which may come in pairs."""
     count, each = len(arm.joints), np.eye(len(arm.joints))
     for words, factor in TURNS.items():
         scale = np.where(arm.slides, 1.0, factor)
@@ -57,7 +57,7 @@ def steps_of(arm: Arm) -> Iterator[Step]:
         names = f"{arm.joints[one]} and {arm.joints[other]}"
         exchange = partial(np.take, indices=order, axis=1)
         yield Step(f"the columns of {names} exchanged", exchange)
-        if other == one + 1 and arm.slides[one] == arm.slides[other]:  # as of a parallelogram
+        if other == one + 1 and arm.slides[one] == arm.slides[other]:  # as in a parallelogram arm
             for column, by, sign in ((other, one, 1), (other, one, -1), (one, other, 1)):
                 change = np.eye(count)
                 change[by, column] = -sign
@@ -71,7 +71,7 @@ def steps_of(arm: Arm) -> Iterator[Step]:
 
 
 def rare_steps_of(arm: Arm) -> Iterator[Step]:
-    """Mistakes in one column of many, or in all joints: each is tried by itself."""
+    """Mistakes in a single column, or in the signs of all joints: each is tried by itself."""
     yield Step("the signs of all joints", np.negative)
     turns = TURNS | {"half of its turn": 2.0, "twice its turn": 0.5}
     each = np.eye(len(arm.joints))
@@ -86,7 +86,7 @@ def rare_steps_of(arm: Arm) -> Iterator[Step]:
 
 
 def steps_of_rotations() -> Iterator[Step]:
-    """Mistakes in measured rotations, in whichever columns they are."""
+    """Mistakes in measured rotations, in any of their notations."""
     inverse = "poses of the instrument in the target's frame; expected: of the target in the"
     yield Step(f"{inverse} instrument's", measured=np.linalg.inv)
     euler = Rotation.from_euler
@@ -109,12 +109,12 @@ def steps_of_rotations() -> Iterator[Step]:
 
 
 def _angles(rotations: Rotation) -> np.ndarray:
-    """Roll, pitch and yaw (n, 3) [rad]; some of many at a pitch of a right angle."""
+    """Roll, pitch and yaw (n, 3) [rad]; at a pitch of 90 deg, one of many solutions."""
     return rotations.as_euler("xyz", suppress_warnings=True)
 
 
 def _scaled(factor: float | np.ndarray, measured: np.ndarray) -> np.ndarray:
-    """Positions (n, 3), or poses (n, 4, 4), with positions times a factor, or (3,)."""
+    """Positions (n, 3) or poses (n, 4, 4), with positions multiplied by a factor, or (3,)."""
     scaled = measured.copy()
     places = scaled if measured.ndim == 2 else scaled[:, :3, 3]
     places *= factor
@@ -122,7 +122,7 @@ def _scaled(factor: float | np.ndarray, measured: np.ndarray) -> np.ndarray:
 
 
 def _turned(change: Callable[[Rotation], Rotation], poses: np.ndarray) -> np.ndarray:
-    """Poses (n, 4, 4) with other rotations."""
+    """Poses (n, 4, 4) with changed rotations."""
     turned = poses.copy()
     turned[:, :3, :3] = change(Rotation.from_matrix(poses[:, :3, :3])).as_matrix()
     return turned

@@ -1,1 +1,1 @@
-"""The results of a calibration as text, page, recording and files."""
+"""The results of a calibration as text, as a page, as a recording and as files."""

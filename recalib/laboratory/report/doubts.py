@@ -1,4 +1,4 @@
-"""Warnings about a calibration as a whole, which are printed first."""
+"""Warnings about a whole calibration, which are printed first."""
 
 from collections.abc import Iterator
 
@@ -15,13 +15,13 @@ from recalib.laboratory.report.templates import render
 from recalib.laboratory.results import Results
 from recalib.nominal.kinematics import Arm
 
-RESIZED = 0.015  # of a size: all links together are seldom so much longer
-TOGETHER = 0.3  # the part of residuals that remains if one factor for all links explains them
-OUTVOTED = 0.5  # of the rows of a sight: if more are outliers, it is not as described
-WORN = 3.0  # deviations of what wear is expected to do: beyond that is something else
-ENDS, NAMED = ("of base", "of tool", "of target"), 3  # names that come first, and how many at most
-CONTRADICTED = 2.0  # times the error at random: more in both others is a contradiction
-MOST = 6  # rows that are listed
+RESIZED = 0.015  # of a size: all links together are seldom longer by more
+TOGETHER = 0.3  # of the residuals: less remains if one factor for all links explains them
+OUTVOTED = 0.5  # of the rows of a sight: if more are outliers, the other sights contradict it
+WORN = 3.0  # prior deviations: wear explains no larger error
+ENDS, NAMED = ("of base", "of tool", "of target"), 3  # names listed first, and how many at most
+CONTRADICTED = 2.0  # times the error at random: larger errors contradict it
+MOST = 6  # rows to list
 
 
 def doubts(result: Results) -> list[str]:
@@ -47,7 +47,7 @@ def doubts(result: Results) -> list[str]:
 
 
 def fault_in_words(fault: Fault, data: DataSet, frames: Frames) -> str:
-    """What seems to have happened, where, and what to try: a sentence without its full stop."""
+    """What seems to have happened, where, and what to try, without a full stop."""
     sight, observations, in_sockets = fault.sight, data.observations, bool(len(frames.sockets))
     instrument, target = frames.sights[sight]
     series = observations.series
@@ -64,12 +64,12 @@ def fault_in_words(fault: Fault, data: DataSet, frames: Frames) -> str:
 
 
 def gain_in_words(wrong: WrongGain, arm: Arm) -> str:
-    """A joint that does not turn as its column says: a sentence without its full stop."""
+    """A joint that moves more or less than its column says, without a full stop."""
     return render("gain.txt.j2", wrong=wrong, joints=arm.joints).strip()
 
 
 def _outvoted(result: Results) -> Iterator[tuple[str, int, int]]:
-    """Cameras whose pictures the others contradict, the number of these pictures, and of all."""
+    """Cameras that the others contradict: name, number of outlying pictures, number of all."""
     series, names = result.data.observations.series, result.data.sight_names
     for number, name in enumerate(names if len(result.data.tables) > 1 else []):
         outliers = np.count_nonzero(series[result.doubted - 1] == number)
@@ -78,7 +78,7 @@ def _outvoted(result: Results) -> Iterator[tuple[str, int, int]]:
 
 
 def _worn(result: Results) -> tuple[Parameter, float] | None:
-    """The largest offset or error of a link over its prior deviation, if wear does not do that."""
+    """The joint or link error that exceeds its prior deviation most, and the ratio, if > `WORN`."""
     model = result.geometry.model
     ratios = result.geometry.estimate.parameters / model.deviations
     ratios = np.where(model.free | (model.deviations <= HELD), 0.0, np.abs(ratios))
@@ -88,9 +88,9 @@ def _worn(result: Results) -> tuple[Parameter, float] | None:
 
 
 def _resized(result: Results) -> Iterator[tuple[str, float, bool]]:
-    """What has another size than described, if links are as in the URDF; percent; if it is larger.
+    """Sizes that differ from the description, if the URDF's links are right: percent, and sign.
 
-    Printers scale often, instruments seldom.
+    Printers often change the scale, instruments seldom.
     """
     most = TOGETHER if result.data.observations.optics is None else np.inf
     for what, (factor, remaining) in result.scales.items():
@@ -99,7 +99,7 @@ def _resized(result: Results) -> Iterator[tuple[str, float, bool]]:
 
 
 def _contradicted(result: Results) -> tuple[float, float, float] | None:
-    """Errors at random, in blocks, and of geometry [mm], if the last two contradict the first."""
+    """Errors at random, in blocks and of geometry [mm] if the last two contradict the first."""
     if result.validation.chosen != HYBRID:
         return None
     compared = (RANDOM, HYBRID), (BLOCKWISE, HYBRID), (RANDOM, GEOMETRIC)

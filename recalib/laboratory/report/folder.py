@@ -23,14 +23,14 @@ from recalib.laboratory.urdf.universal_robots import kinematics_yaml
 from recalib.nominal.arms import arm_of
 
 URDF, HAND_EYE = "arm.urdf", "hand_eye.toml"
-PROBES, ROUNDING = 10, 1e-9  # random postures at which files are compared, to so much m and rad
+PROBES, ROUNDING = 10, 1e-9  # random postures to compare files at; largest difference [m, rad]
 
 
 def files_of(result: Results) -> dict[str, bytes]:
-    """All files of a calibration by name, in the order in which they are listed.
+    """All files of a calibration by name, in the order of listing.
 
-    The URDF and the correction are read back: their forward kinematics are those of the
-    calibration. Raises InvalidFile if they are not.
+    The URDF and the correction are read back. Raises InvalidFile if their forward kinematics
+    differ from those of the calibration.
     """
     files = {"summary.txt": summary(result).encode()}
     if result.worthwhile:
@@ -58,7 +58,7 @@ def _calibration(result: Results) -> dict[str, bytes]:
         "tool": tool,
         "base": result.arm.base,
         "errors": [row._asdict() for row in errors_table(result)],
-        "fit": DOING[GEOMETRIC],  # of all that follows
+        "fit": DOING[GEOMETRIC],  # of all entries below
         "noise": geometry.estimate.noise.tolist(),
         "base_in_instrument": frames.base.tolist() if len(bases) == 1 else bases,
         "targets_in_tool": dict(zip(data.targets, frames.targets.tolist(), strict=True)),
@@ -74,7 +74,7 @@ def _calibration(result: Results) -> dict[str, bytes]:
 
 
 def _check(result: Results, files: dict[str, bytes]) -> None:
-    """Raise InvalidFile unless the arms that are read back from files are the calibrated ones."""
+    """Raise InvalidFile unless the arms read back from the files are the calibrated ones."""
     low, high = (end(result.data.observations.joints, axis=0) for end in (np.min, np.max))
     joints = np.random.default_rng(0).uniform(low, high, (PROBES, len(low)))
     urdf, (_, tool) = Path(URDF), result.corrected
@@ -93,7 +93,7 @@ def _check(result: Results, files: dict[str, bytes]) -> None:
 
 
 def _frame(place: Place, result: Results) -> dict[str, Any]:
-    """An identified place; unknown values are empty."""
+    """The cells of an identified place; unknown values are empty."""
     fit = DOING[GEOMETRIC if result.worthwhile else NOTHING]
     numbers = {
         **dict(zip(("x [mm]", "y [mm]", "z [mm]"), 1e3 * place.position, strict=True)),
@@ -111,7 +111,7 @@ def _frame(place: Place, result: Results) -> dict[str, Any]:
 
 
 def _rows(result: Results) -> Iterator[dict[str, Any]]:
-    """For each row its error before and after, held out, and its weight."""
+    """For each row, its held-out errors before and after, and its weight."""
     validation, weights = result.validation, result.geometry.estimate.weights
     before, after = (
         1e3 * validation.held_out[BLOCKWISE][kind].errors[:, 0]
@@ -128,7 +128,7 @@ def _rows(result: Results) -> Iterator[dict[str, Any]]:
 
 
 def hand_eye(result: Results) -> str:
-    """A TOML with all frames, held-out errors, and the same with the arm taken as right."""
+    """A TOML with all frames and held-out errors, and again with the nominal arm taken as exact."""
     validation = result.validation
     held_out = {way: validation.held_out[way][validation.chosen] for way in WAYS}
     parts = ("", result.places, held_out), ("arm_as_right.", *_arm_as_right(result, held_out))
@@ -146,9 +146,9 @@ def hand_eye(result: Results) -> str:
 def _arm_as_right(
     result: Results, held_out: Mapping[str, HeldOut]
 ) -> tuple[list[Place], dict[str, HeldOut]]:
-    """The places of cameras and boards by the nominal arm, and errors in the same folds.
+    """Places of cameras and boards if the nominal arm is exact, and their errors in the same folds.
 
-    The first sight of a camera or a board determines its place.
+    The place of a camera or a board is taken from its first sight.
     """
     data, arm = result.data, result.arm
     rows, links = data.observations, (arm.base, arm.tool)
@@ -156,10 +156,10 @@ def _arm_as_right(
     flange, places = arm.forward(rows.joints), dict[str, Place]()
     residuals = {way: np.zeros((len(rows), 6)) for way in held_out}
     for sight, pair in enumerate(result.geometry.frames.sights):
-        own = np.flatnonzero(rows.targets == sight)
-        found = calibrate_hand_eye(Sights(flange, rows.measured, False, rows.optics)[own])
+        members = np.flatnonzero(rows.targets == sight)
+        found = calibrate_hand_eye(Sights(flange, rows.measured, False, rows.optics)[members])
         for way, part in residuals.items():
-            part[own] = without_fold(found, held_out[way].folds[own])
+            part[members] = without_fold(found, held_out[way].folds[members])
         names = data.instruments[pair[0]], data.target_names[pair[1]]
         for place in hand_eye_places(found, names, links):
             places.setdefault(place.name, place)

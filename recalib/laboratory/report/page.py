@@ -1,4 +1,4 @@
-"""The HTML page of a calibration: one file that loads nothing else, with drawings as SVG."""
+"""The HTML page of a calibration: a single self-contained file, with drawings as SVG."""
 
 from io import StringIO
 from typing import Any
@@ -16,8 +16,8 @@ from recalib.laboratory.results import Results
 COLOURS, GREY = {"before": "#D55E00", "after": "#0072B2"}, "#999"
 WIDTH = 9.6  # inches
 COLUMNS = 3
-LONGEST = 0.12  # of the arm's reach: so long is the largest error drawn
-LEAST = 1e-4  # mm or deg: no instrument measures less
+LONGEST = 0.12  # of the arm's reach: the drawn length of the largest error
+LEAST = 1e-4  # mm or deg: smaller than any instrument resolves
 LISTED = 15  # parameters, the most certain first
 STYLE: dict[Any, Any] = {
     "axes.grid": True,
@@ -25,15 +25,15 @@ STYLE: dict[Any, Any] = {
     "axes.spines.top": False,
     "font.size": 9,
     "grid.color": "#e5e5e5",
-    "savefig.dpi": 150,  # of points and arrows: thousands are too much for a browser
+    "savefig.dpi": 150,  # of rasterized points and arrows: thousands would slow a browser
     "svg.fonttype": "none",
-    "svg.hashsalt": "recalib",  # the same drawing gives the same text
+    "svg.hashsalt": "recalib",  # makes the text of a drawing reproducible
 }
 
 
 @rc_context(STYLE)
 def draw_errors(result: Results) -> str:
-    """What part of the rows has at most which error, before and after."""
+    """The cumulative distribution of errors, before and after."""
     kinds = result.calibration.estimate.noise.size
     figure, panels = figure_of(2.8, 1, kinds)
     for kind, (panel, (scale, unit)) in enumerate(zip(panels.flat, UNITS, strict=False)):
@@ -75,7 +75,7 @@ def draw_over_joints(result: Results) -> str:
 def draw_arm(result: Results) -> tuple[str, float]:
     """The arm in a middle posture, from the side and from above, with positions and their errors.
 
-    Everything is drawn in the arm's base. Returns by how many times errors are drawn too long.
+    Everything is drawn in the arm's base. Also returns the magnification of the errors.
     """
     joints, positions = result.data.observations.joints[result.counted], result.positions
     middle = np.linalg.norm(joints - np.median(joints, axis=0), axis=1).argmin()
@@ -101,7 +101,7 @@ def draw_arm(result: Results) -> tuple[str, float]:
 
 
 def _errors(result: Results, kind: int, scale: float) -> dict[str, np.ndarray]:
-    """Errors (n,) before and after, of position (kind 0) or orientation (1), times a scale."""
+    """Errors (n,) before and after of position (kind 0) or orientation (kind 1), times a scale."""
     part = slice(3 * kind, 3 * kind + 3)
     return {
         name: scale * np.linalg.norm(rows[:, part], axis=1)
@@ -112,20 +112,20 @@ def _errors(result: Results, kind: int, scale: float) -> dict[str, np.ndarray]:
 def figure_of(
     height: float, rows: int, columns: int, sharey: bool = False
 ) -> tuple[Figure, np.ndarray]:
-    """A figure so high [inches], and its panels (rows, columns)."""
+    """A figure of this height [inches], and its panels (rows, columns)."""
     figure = Figure((WIDTH, height))
     figure.subplots_adjust(0.07, 0.5 / height, 0.99, 1 - 0.3 / height, hspace=0.35)
     return figure, figure.subplots(rows, columns, sharey=sharey, squeeze=False)
 
 
 def _plain(axis: Axis) -> None:
-    """Whole powers of ten as numbers: all else takes a second to draw."""
+    """Label powers of ten as plain numbers, without minor ticks, which take a second to draw."""
     axis.set_major_formatter("{x:g}")
     axis.set_minor_locator(NullLocator())
 
 
 def svg_of(figure: Figure) -> str:
-    """An element for a page of HTML."""
+    """The SVG element of a figure, for an HTML page."""
     text, metadata = StringIO(), dict.fromkeys(("Creator", "Date", "Format", "Type"))
     figure.savefig(text, format="svg", metadata=metadata)
     return text.getvalue()[text.getvalue().index("<svg") :]

@@ -1,4 +1,4 @@
-"""A recording for the Rerun viewer: the arm in each measured posture, and its error there."""
+"""A recording for the Rerun viewer: the arm in each measured posture, with its errors."""
 
 import numpy as np
 import rerun as rr
@@ -10,20 +10,20 @@ from recalib.laboratory.scene import ARM, GREY, ROW, THICK, log_meshes, send_arm
 from recalib.spelling import counted
 
 COLOURS = {"before": (213, 94, 0), "after": (0, 114, 178)}
-LONGEST = 0.12  # m: so long is the largest error shown
+LONGEST = 0.12  # m: the drawn length of the largest error
 
 
 def recording_of(result: Results) -> tuple[bytes, str]:
-    """The recording of a calibration, in the arm's base, and which parts it lacks, in words.
+    """The recording of a calibration, in the arm's base, and a remark about missing parts.
 
-    Rerun reads fewer URDFs than Pinocchio: the recording of another one is empty. Raises
-    InvalidSetting without a URDF.
+    If Rerun cannot read the URDF, which happens with some that Pinocchio reads, the recording is
+    empty. Raises InvalidSetting without a URDF.
     """
     if result.urdf is None:
         raise InvalidSetting("urdf", None, "the file of the arm; try: calibrate_arm")
     positions, residuals = result.positions, result.residuals
     longer = float(f"{LONGEST / np.linalg.norm(residuals['before'][:, :3], axis=1).max():.0e}")
-    rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
+    rr.set_strict_mode(True)  # else errors are only warnings, and the recording is incomplete
     with rr.RecordingStream("recalib calibration") as rec:
         memory = rec.memory_recording()
         rec.send_blueprint(_blueprint(longer))

@@ -1,4 +1,4 @@
-"""The summary of a calibration: its errors, what is known of the arm, and doubts about it."""
+"""The summary of a calibration: held-out errors, the identified arm, and warnings."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -25,26 +25,26 @@ DOING = {
     GEOMETRIC: "geometry, as in arm.urdf",
     HYBRID: "everything, as in correction.npz",
 }
-MOST = 12  # doubted rows, and directions, that are listed
-BEYOND = 0.5  # deg, mm: limits are rounded
+MOST = 12  # outliers, and unidentifiable directions, to list
+BEYOND = 0.5  # deg, mm: limits in a URDF are rounded
 
 
 class ErrorRow(NamedTuple):
-    """Held-out errors [unit] of one way of folding rows, and of what is corrected."""
+    """Held-out errors [unit] for one way of folding rows and one correction."""
 
     folds: str
     what: str
     chosen: bool
     unit: str
     mean: float
-    within: float  # lie 95 % of the rows of each part that was held out
+    within: float  # radius that contains 95 % of the rows of every held-out part
     largest: float
 
 
 def errors_table(result: Results) -> list[ErrorRow]:
-    """Held-out errors by the way of folding, by what is corrected, of position and rotation.
+    """Held-out errors of position and rotation, for each way of folding and each correction.
 
-    The last rows are of outliers, which all others leave out.
+    The last rows show the outliers, which all other rows leave out.
     """
     validation, rows = result.validation, []
 
@@ -57,16 +57,16 @@ def errors_table(result: Results) -> list[ErrorRow]:
     for way in WAYS:
         for kind in KINDS:
             add(validation.held_out_by(way, kind), way, DOING[kind], kind == validation.chosen)
-    if left := int(np.sum(~validation.counted)):
+    if omitted := int(np.sum(~validation.counted)):
         outliers = validation.held_out[BLOCKWISE][validation.chosen][~validation.counted]
-        add(outliers, "left out", f"{counted(left, 'row')}, as outliers", False)
+        add(outliers, "left out", f"{counted(omitted, 'row')}, as outliers", False)
     return rows
 
 
 def verdict(result: Results) -> str:
     """The headline of a calibration, then its warnings."""
-    chosen, left = result.validation.chosen, np.sum(~result.validation.counted)
-    without = f", {left} of {len(result.data)} rows left out as outliers" if left else ""
+    chosen, omitted = result.validation.chosen, np.sum(~result.validation.counted)
+    without = f", {omitted} of {len(result.data)} rows left out as outliers" if omitted else ""
     compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
     before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
     if result.worthwhile:
@@ -95,12 +95,12 @@ def summary(result: Results) -> str:
 
 
 def notes(result: Results) -> list[str]:
-    """What else to know, in a line each."""
+    """Further facts about a calibration, one for each line."""
     return [subject(result), *render("notes.txt.j2", **_facts(result)).splitlines()]
 
 
 def _facts(result: Results) -> dict[str, object]:
-    """What the templates name."""
+    """The values of the templates."""
     data, anywhere = result.data, []
     for one, words in (pair for pair in result.directions if pair[0].lasting):
         if result.geometry.model.free[one.parameter]:
@@ -122,23 +122,23 @@ def _facts(result: Results) -> dict[str, object]:
 
 
 def _cameras(result: Results) -> Iterator[tuple[str, float, float]]:
-    """Mean errors of corners [px] in held-out pictures, corrected and by the nominal arm."""
+    """For each sight, mean corner errors [px] in held-out pictures: corrected, and nominal."""
     sights, held_out = result.data.observations.targets, result.validation.held_out[BLOCKWISE]
     for sight, name in enumerate(result.data.sight_names):
-        own = result.counted[sights[result.counted] == sight]
+        rows = result.counted[sights[result.counted] == sight]
         kinds = result.validation.chosen, NOTHING
-        error, nominal = (pixel_error(held_out[kind], own) for kind in kinds)
+        error, nominal = (pixel_error(held_out[kind], rows) for kind in kinds)
         yield name, error, nominal
 
 
 def pixel_error(held_out: HeldOut, rows: np.ndarray) -> float:
-    """The mean over rows of how far corners are off [px] in held-out pictures, each an RMS."""
+    """The mean over rows of the RMS corner error [px] in each held-out picture."""
     assert held_out.optics is not None
     return float(held_out.optics.moved(held_out.residuals)[rows].mean())
 
 
 def _joints(result: Results) -> Iterator[dict[str, object]]:
-    """The range in which each joint was measured, and its limits [unit]."""
+    """The measured range of each joint, and its limits [unit]."""
     arm, still = result.arm, result.validation.postures.still
     limits = arm.model.lowerPositionLimit, arm.model.upperPositionLimit
     columns = arm.joints, arm.slides, still, result.data.observations.joints.T, *limits

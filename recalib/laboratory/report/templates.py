@@ -1,4 +1,4 @@
-"""Text and pages from templates (Jinja2) in this folder."""
+"""Rendering of the templates (Jinja2) in this folder."""
 
 import json
 from typing import Any
@@ -12,23 +12,23 @@ UNITS = (1e3, "mm"), (180 / np.pi, "deg")
 
 
 def in_units(numbers: np.ndarray | tuple[float, ...], digits: int) -> str:
-    """A length [m] and, if there is one, an angle [rad] as people read them."""
+    """A length [m] and, if given, an angle [rad], as text in mm and deg."""
     pairs = zip(UNITS, numbers, strict=False)
     return ", ".join(f"{scale * number:.{digits}g} {unit}" for (scale, unit), number in pairs)
 
 
 def quoted(text: str) -> str:
-    """A text as TOML has it."""
+    """The text as a TOML string."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def short(number: float) -> str:
-    """Two digits, and no power of ten where people write none: 100, not 1e+02."""
+    """The number with two digits, without an exponent: 100, not 1e+02."""
     return f"{float(f'{number:.2g}'):g}"
 
 
 def render(template: str, **values: Any) -> str:
-    """A template with values in it; in HTML and XML, these are escaped."""
+    """Render a template; in HTML and XML, the values are escaped."""
     environment = Environment(
         loader=PackageLoader("recalib.laboratory.report", "."),
         autoescape=lambda name: name is not None and (".html" in name or ".urdf" in name),

@@ -1,1 +1,1 @@
-"""Tables of measurements, and their descriptions: how they are read."""
+"""Readers of tables of measurements and of their descriptions."""

@@ -1,14 +1,14 @@
-"""The columns of tables (CSV): what each holds, and which are given together.
+"""The columns of tables (CSV): the content of each, and which belong together.
 
-Reading, checking and `recalib calibrate --help` follow from here. A further column is a line in
-`MEASURED`; what uses it asks `Measurements.columns` for it by its name.
+Reading, checking and `recalib calibrate --help` use these definitions. To add a column, add it to
+`MEASURED`; its values are in `Measurements.columns` under its name.
 """
 
 from dataclasses import dataclass
 
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER, TIME, Quantity
 
-NAME = Quantity("a name", {})  # in one spelling, and never empty
+NAME = Quantity("a name", {})  # never empty, and always in the same capitals
 TEXT = Quantity("a text", {})
 
 
@@ -16,12 +16,12 @@ TEXT = Quantity("a text", {})
 class Columns:
     """Columns that are given together, or not at all."""
 
-    name: str  # of the array that they become
+    name: str  # of the array with their values
     headings: tuple[str, ...]
-    quantity: Quantity  # what they hold
-    meaning: str = ""  # for people
-    unit: str = ""  # that we write
-    needed: bool = False  # whether a table must have them
+    quantity: Quantity  # of their cells
+    meaning: str = ""  # for messages and help
+    unit: str = ""  # in tables that we write
+    needed: bool = False  # whether a table must have these columns
 
     @property
     def written(self) -> list[str]:
@@ -51,7 +51,7 @@ SOCKETS = Columns(
     "sockets", ("socket",), NAME, "instead of a position: name of the socket that held the ball"
 )
 PICTURE = "picture"
-PICTURES = Columns("pictures", (PICTURE,), TEXT, "file name; recalib observe needs it")
+PICTURES = Columns("pictures", (PICTURE,), TEXT, "file name of a picture, for recalib observe")
 TIMES = Columns(
     "times",
     ("time",),

@@ -15,7 +15,7 @@ from recalib.identification.model.frames import LINK, Frames
 from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance", "wear"
-EXACT = 1e-6  # m, rad: how well a number without a deviation is known where others have one
+EXACT = 1e-6  # m, rad: deviation of a number without one, if other numbers of the pose have one
 
 
 @dataclass(frozen=True)
@@ -23,13 +23,13 @@ class Description:
     """Frames, distances and columns that a table of measurements cannot express.
 
     Attributes:
-        columns: by a heading of the table the heading that it should have, or "ignored".
+        columns: maps a heading of the table to the heading that it should have, or "ignored".
         instrument: (4, 4) m in the arm's base frame; None if unknown.
         target: (4, 4) m in the tool link's frame; None if unknown.
-        instrument_deviations, target_deviations: (6,) m and rad, how well they are known along and
-            about the axes of those frames; None if they are unknown, or exact.
-        encoders: rad, by how much an encoder's zero may be off; 0 if it is not stated.
-        links: m and rad, by how much a link may be off; None likewise.
+        instrument_deviations, target_deviations: (6,) m and rad, standard deviations along and
+            about the axes of those frames; None if the pose is unknown or exact.
+        encoders: rad, standard deviation of an encoder's zero; 0 if it is not stated.
+        links: m and rad, standard deviations of a link; None if they are not stated.
         distances: m between the centres of two sockets, by their names in alphabetical order.
     """
 
@@ -43,7 +43,7 @@ class Description:
     links: tuple[float, float] | None = None
 
     def stated_in(self, frames: Frames) -> Frames:
-        """The same frames, as well known as is stated, of an arm with wear as is stated."""
+        """The same frames, with the stated deviations of frames, encoders and links as priors."""
         frames = frames.with_priors(self.instrument_deviations, self.target_deviations)
         frames = replace(frames, offset_deviation=self.encoders)
         if self.links is None:
@@ -53,7 +53,7 @@ class Description:
 
 
 def read_description(path: AnyPath) -> Description:
-    """The description at `path`. Raises InvalidFile, which names the key."""
+    """The description at `path`. Raises InvalidFile, with the key at fault."""
     parts = read_toml(path)
     try:
         for part in parts:
@@ -74,7 +74,7 @@ def read_description(path: AnyPath) -> Description:
 
 
 def _pose(part: str, parts: Mapping[str, Any]) -> dict[str, Any]:
-    """The pose of an instrument or target and its deviations, as far as they are stated."""
+    """The pose of an instrument or target and its deviations, if they are stated."""
     if part not in parts:
         return {}
     given = parts[part]
@@ -95,14 +95,14 @@ def _pose(part: str, parts: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def within(key: str, given: Any, kind: Quantity, default: float = 0.0) -> tuple[float, float]:
-    """A value and its deviation. Raises InvalidSetting."""
+    """Read a value and its deviation, as in "3 mm +- 1 mm". Raises InvalidSetting."""
     value, *deviation = given.split("+-", 1) if isinstance(given, str) else [given]
     number = _read(key, value, kind)
     return number, _read(key, deviation[0], kind, positive=True) if deviation else default
 
 
 def _wear(given: Any) -> dict[str, Any]:
-    """By how much encoders and links may be off, as far as it is stated."""
+    """The standard deviations of encoders and links, if they are stated."""
     if not isinstance(given, dict) or given.keys() - {"encoders", "links"}:
         raise InvalidSetting("wear", given, 'encoders = "1 deg" and links = ["2 mm", "0.1 deg"]')
     encoders, links = given.get("encoders"), given.get("links")
@@ -118,7 +118,7 @@ def _wear(given: Any) -> dict[str, Any]:
 
 
 def distances_of(given: Any) -> dict[tuple[str, str], float]:
-    """Lengths [m] between two sockets, by their names in order. Raises InvalidSetting."""
+    """Distances [m] between two sockets, by their sorted names. Raises InvalidSetting."""
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
     distances: dict[tuple[str, str], float] = {}

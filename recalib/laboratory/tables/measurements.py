@@ -1,4 +1,4 @@
-"""Tables of measurements and postures of an arm; docs/own_arm.md describes them."""
+"""Tables of measurements and postures of an arm; see docs/own_arm.md."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -34,10 +34,10 @@ from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted, listed
 
 PREFIX = "joint "  # before the name of a joint that is also the heading of a measured column
-SKEW = 0.01  # of a quaternion's length, as instruments round it
+SKEW = 0.01  # error of a quaternion's length, from rounding by the instrument
 COPIES = 0.1  # of the rows, at most: no instrument repeats itself so often to the last digit
-MOVED = 0.05  # rad, m: by as much in two joints, a target is elsewhere
-STILL = 1e-3  # rad, m: a joint that moves less could as well be held by its brake
+MOVED = 0.05  # rad, m: if two joints move by more, the target moves, too
+STILL = 1e-3  # rad, m: a joint that moves less might as well be held by its brake
 
 
 TURNS = {
@@ -52,11 +52,11 @@ class Measurements:
     """Rows of a table, in SI units. See `Coupling` for joints that follow others."""
 
     path: Path  # of the table, for messages
-    # (n, columns) rad, or m where a joint slides, that the controller reported; None without any
+    # (n, columns) rad, or m for sliding joints, as the controller reported them; None if not given
     joints: np.ndarray | None
-    # poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame; None without
+    # poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame; None if neither
     measured: np.ndarray | None
-    columns: Mapping[str, np.ndarray]  # all others, by their names in `tables.columns`
+    columns: Mapping[str, np.ndarray]  # all other columns, by their names in `tables.columns`
 
     def __len__(self) -> int:
         rows = self.measured if self.joints is None else self.joints
@@ -74,9 +74,9 @@ def read_measurements(
 ) -> Measurements:
     """The measurements of an arm in the table at `path`.
 
-    Raises InvalidFile: no such table; a column that is missing, unknown, in another unit, given
-    twice or useless; a cell that is not a number or too large for an arm; too few rows; nothing
-    measured; rows pasted twice.
+    Raises InvalidFile: not a table; a column that is missing, unknown, in a wrong unit, repeated
+    or useless; a cell that is not a number or too large for an arm; too few rows; no measured
+    columns; copied rows.
     """
     table = read_table(path, description.columns if description else None)
     rows = _read(table, arm, MEASURED)
@@ -86,20 +86,20 @@ def read_measurements(
 
 
 def read_joints(path: AnyPath, arm: Arm) -> Measurements:
-    """Joint coordinates and pictures in the table at `path`. Raises as `read_measurements`."""
+    """Joint coordinates and pictures in the table at `path`. Raises like `read_measurements`."""
     rows = _read(read_table(path), arm, MEASURED)
     _check_rows(rows)
     return rows
 
 
 def read_desired(path: AnyPath, arm: Arm, target: bool = False) -> Measurements:
-    """Desired joint coordinates, or poses or positions, or both.
+    """Desired joint coordinates, or poses or positions, or both, in the table at `path`.
 
     Args:
         target: whether rows may name the target whose pose is desired.
 
-    Raises InvalidFile as `read_measurements`, but one row is enough; also if a column has nothing
-    to do with what is desired, or if rows are commands, which are corrected already.
+    Raises InvalidFile like `read_measurements`, but one row is enough; also for columns that only
+    measurements have, and for commands, which are corrected already.
     """
     table = read_table(path)
     if TARGETS.headings[0] in table and not target:
@@ -116,19 +116,19 @@ def read_desired(path: AnyPath, arm: Arm, target: bool = False) -> Measurements:
 def measurements_so_far(
     content: bytes, path: AnyPath, arm: Arm, description: Description
 ) -> Measurements:
-    """The measurements in the content of a table that still grows: one row is enough.
+    """The measurements in the content of a growing table: one row is enough.
 
-    Raises InvalidFile as `read_measurements`, and if a row has no position.
+    Raises InvalidFile like `read_measurements`, and if the table has no positions.
     """
     rows = _read(table_of(content, path, description.columns), arm, MEASURED)
     if rows.measured is None:
-        raise InvalidFile(path, "no positions are measured in it; expected: x, y and z")
+        raise InvalidFile(path, "it has no measured positions; expected: x, y and z")
     _check_stuck(rows)
     return rows
 
 
 def joint_headings(arm: Arm, angle: str = "deg", length: str = "mm") -> list[str]:
-    """The headings of an arm's joints as we write them, with their units."""
+    """The headings of an arm's joints, with units, in tables that we write."""
     taken = {heading for kind in MEASURED for heading in kind.headings}
     names = (PREFIX + joint if joint in taken else joint for joint in arm.coupling.columns)
     units = (length if slides else angle for slides in arm.coupling.slides)
@@ -136,18 +136,18 @@ def joint_headings(arm: Arm, angle: str = "deg", length: str = "mm") -> list[str
 
 
 def postures_table(arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool = False) -> bytes:
-    """Joint coordinates (n, columns) and poses (n, 4, 4) in the columns that we read.
+    """The CSV text of joint coordinates (n, columns) and poses (n, 4, 4), which we can read.
 
-    Fake poses are commands, in columns that `read_desired` refuses: it would correct them twice.
+    Fake poses are commands. `read_desired` refuses their columns: they are corrected already.
     """
     scales = [1e3 if slides else 180 / np.pi for slides in arm.coupling.slides]
     texts = [[f"{number:.9f}" for number in row] for row in joints * scales]
-    own = (dict(zip(joint_headings(arm), row, strict=True)) for row in texts)
-    return table_text(row | pose for row, pose in zip(own, pose_rows(poses, fake), strict=True))
+    cells = (dict(zip(joint_headings(arm), row, strict=True)) for row in texts)
+    return table_text(row | pose for row, pose in zip(cells, pose_rows(poses, fake), strict=True))
 
 
 def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]:
-    """The cells of poses (n, 4, 4) [m] by their headings; see `postures_table`."""
+    """For each pose (n, 4, 4) [m], its cells by heading; see `postures_table`."""
     kinds = (FAKE_POSITIONS, FAKE_ROTATIONS) if fake else (POSITIONS, ROTATION_VECTORS)
     headings = [heading for kind in kinds for heading in kind.written]
     turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
@@ -156,10 +156,10 @@ def pose_rows(poses: np.ndarray, fake: bool = False) -> Iterator[dict[str, str]]
 
 
 def check_measured(rows: Measurements) -> None:
-    """Raise InvalidFile unless an arm can be calibrated by the rows."""
+    """Raise InvalidFile unless an arm can be calibrated from the rows."""
     sockets = SOCKETS.name in rows.columns
     if rows.measured is None and not sockets:
-        raise InvalidFile(rows.path, "nothing was measured in it; expected: x, y, z or socket")
+        raise InvalidFile(rows.path, "it has no measured columns; expected: x, y, z or socket")
     if rows.measured is not None and sockets:
         raise InvalidFile(rows.path, "it has both positions and sockets; expected: one of them")
     _check_rows(rows)
@@ -174,29 +174,29 @@ def _check_rows(rows: Measurements) -> None:
             found = f"row {row} was measured before row {row - 1}; try: sort the rows by time"
             raise InvalidFile(rows.path, found)
         if len(times) > 1 and times[0] == times[-1]:
-            raise InvalidFile(rows.path, "column 'time' is the same in all rows; try: without it")
+            raise InvalidFile(rows.path, "column 'time' is the same in all rows; try: omit it")
     if len(rows) < FEWEST:
         found = f"it has {counted(len(rows), 'row')}; expected: at least {FEWEST}"
         raise InvalidFile(rows.path, found)
     if (np.ptp(rows.joints, axis=0) < STILL).all():
-        raise InvalidFile(rows.path, "no joint moves in it; expected: rows of different postures")
+        raise InvalidFile(rows.path, "no joint moves; expected: rows of different postures")
 
 
 def _check_stuck(rows: Measurements) -> None:
-    """Raise InvalidFile if the arm moved and measurements stayed the same to the last digit."""
+    """Raise InvalidFile if measurements stay the same to the last digit while the arm moves."""
     if rows.measured is None or rows.joints is None:
         return
     moved = (np.abs(np.diff(rows.joints, axis=0)) > MOVED).sum(axis=1) > 1
     equal = (np.diff(rows.measured.reshape(len(rows), -1), axis=0) == 0).all(axis=1)
     if len(stuck := np.flatnonzero(moved & equal)) > 1:
-        found = f"{len(stuck)} of its rows, such as {stuck[0] + 2}, repeat the measurement before"
+        found = f"{len(stuck)} of its rows, such as {stuck[0] + 2}, repeat the previous measurement"
         raise InvalidFile(
             rows.path, f"{found}, in another posture; expected: the target in sight; try: omit them"
         )
 
 
 def check_copies(table: Table) -> None:
-    """Raise InvalidFile if many rows are copies: they would count as measured anew."""
+    """Raise InvalidFile if many rows are copies, which would count as new measurements."""
     first: dict[tuple[str, ...], int] = {}
     rows = enumerate(zip(*table.cells.values(), strict=True), 1)
     copies = [(row, other) for row, key in rows if (other := first.setdefault(key, row)) != row]
@@ -220,7 +220,7 @@ def _read(
             name = next(name for name in kind.headings if name in names)
             raise InvalidFile(
                 table.path,
-                f"column {name!r} is that of the joint, and {listed(rest, 'and')} need a measured"
+                f"column {name!r} is the joint's, but {listed(rest, 'and')} need a measured"
                 f" {name}; try: call the joint's column '{PREFIX}{name}'",
             )
     note = f" ({arm.tool} is moved by {listed(columns, 'and')})"
@@ -237,9 +237,9 @@ def _read(
 
 
 def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
-    """Poses (n, 4, 4), positions (n, 3) [m] or None, from columns.
+    """Poses (n, 4, 4) or positions (n, 3) [m] from columns; None if there are neither.
 
-    Raises InvalidFile of columns that contradict one another, or are useless.
+    Raises InvalidFile if columns contradict each other, or are useless.
     """
     turns = [kind for kind in TURNS if kind.name in given]
     positions = given.get(POSITIONS.name)
@@ -256,7 +256,7 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
     if positions is None:
         raise InvalidFile(path, "it has rotations without positions; expected: also x, y, z")
     (kind,) = turns
-    with np.errstate(over="ignore"):  # a length that is too large for a number is wrong, too
+    with np.errstate(over="ignore"):  # an infinite length is refused below
         lengths = np.linalg.norm(given[kind.name], axis=1)
     if kind is QUATERNIONS and (wrong := np.abs(lengths - 1) > SKEW).any():
         row = int(wrong.argmax())

@@ -21,8 +21,8 @@ from recalib.spelling import counted, instead, listed
 
 _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
 IGNORED = "ignored"
-SEPARATORS = {";": "semicolons", "\t": "tabs"}  # that others write in place of commas
-MOST, MOST_ROWS = 32_000_000, 10_000  # bytes; rows, which a computer calibrates by in an hour
+SEPARATORS = {";": "semicolons", "\t": "tabs"}  # that some programs write in place of commas
+MOST, MOST_ROWS = 32_000_000, 10_000  # bytes; rows, which take about an hour to calibrate from
 
 
 @dataclass(frozen=True)
@@ -30,9 +30,9 @@ class Table:
     """The cells of a table, by column. Rows are counted from 1, without the header."""
 
     path: Path  # of the file, for messages
-    units: Mapping[str, str]  # of each column, empty where the header has none
-    cells: Mapping[str, list[str]]  # of each column, as many as there are rows
-    headings: Mapping[str, str]  # in the file, where a description gives a column another one
+    units: Mapping[str, str]  # of each column; empty if the header names none
+    cells: Mapping[str, list[str]]  # of each column, one for each row
+    headings: Mapping[str, str]  # of each column in the file; a description may rename it
 
     def __len__(self) -> int:
         return len(next(iter(self.cells.values())))
@@ -45,15 +45,15 @@ class Table:
     ) -> dict[str, np.ndarray]:
         """The arrays of all columns by `Columns.name`: (n,) of a single column, else (n, k).
 
-        The table may have the columns of the layout and others. The note in messages is why an
-        angle may be unknown. Raises InvalidFile: unknown or missing columns, another unit, a cell
-        that holds something else.
+        The table may have the columns of the layout and `others`. The note explains, in messages,
+        why a column with an angle is unknown. Raises InvalidFile: unknown or missing columns, a
+        wrong unit, an invalid cell.
         """
         valid = [*others, *(heading for columns in layout for heading in columns.headings)]
         for column in self.cells:
             if column not in valid:
                 bracketed = "expected: its unit in square brackets, as in 'x [mm]'"
-                why = note if self.units[column] in ANGLE.units else ""  # others are no joints
+                why = note if self.units[column] in ANGLE.units else ""  # it may be a joint
                 right = bracketed if column.endswith(")") else instead(column, valid)
                 raise InvalidFile(self.path, f"unknown column {column!r}{why}; {right}")
         arrays = {}
@@ -82,7 +82,7 @@ class Table:
         return self.numbers(column, kind.quantity)
 
     def numbers(self, column: str, quantity: Quantity) -> np.ndarray:
-        """The numbers (n,) in a column, in SI units. Raises InvalidFile, as `read`."""
+        """The numbers (n,) in a column, in SI units. Raises InvalidFile like `read`."""
         unit = self.units[column]
         if unit not in quantity.units:
             found = f"is in {unit!r}" if unit else "names no unit"
@@ -98,9 +98,9 @@ class Table:
         return numbers
 
     def _dates(self, column: str) -> np.ndarray:
-        """The moments (n,) in a column, in seconds."""
+        """The dates (n,) in a column, as seconds since 1970."""
         dates = np.array([_date(cell) for cell in self.cells[column]])
-        valid = f"expected: a date as 2026-11-23T08:15:00.5, or seconds in {column} [s]"
+        valid = f"expected: a date such as 2026-11-23T08:15:00.5, or seconds in {column} [s]"
         self._check(column, np.isfinite(dates), valid)
         return dates
 
@@ -119,7 +119,7 @@ class Table:
         return np.array(self.cells[column])
 
     def _check(self, column: str, good: np.ndarray, valid: str, unit: str | None = None) -> None:
-        """Raise InvalidFile, which shows the first cell that is not good (n,)."""
+        """Raise InvalidFile about the first cell that is not good (n,)."""
         if not good.all():
             row = int(good.argmin())
             cell = self.cells[column][row]
@@ -138,12 +138,12 @@ def read_table(
 def table_of(
     content: bytes, path: AnyPath, columns: Mapping[str, str] | None = None, most: int = MOST_ROWS
 ) -> Table:
-    """The table in a file's content: UTF-8, commas between cells, a header, rows below it.
+    """Parse the content of a file: UTF-8, commas between cells, a header, rows below it.
 
     Args:
-        columns: by a heading of the file the heading that it should have, or "ignored".
+        columns: maps a heading of the file to the heading that it should have, or "ignored".
 
-    Raises InvalidFile: not such a table, or a heading in `columns` that it lacks.
+    Raises InvalidFile: it is not such a table, or lacks a heading in `columns`.
     """
     path, columns = Path(path), columns or {}
     try:
@@ -155,7 +155,7 @@ def table_of(
     if len(rows) > most + 1:
         raise InvalidFile(path, f"it has more than {most} rows; try: every tenth of them")
     if len(rows) < 2:
-        raise InvalidFile(path, "it is empty" if not rows else "it has a header and no row")
+        raise InvalidFile(path, "it is empty" if not rows else "it has a header but no rows")
     found = [cell.strip() for cell in rows[0]]
     for separator, name in SEPARATORS.items():
         if len(found) == 1 and separator in found[0]:
@@ -192,7 +192,7 @@ def table_of(
 
 
 def table_text(rows: Iterable[Mapping[str, object]]) -> bytes:
-    """A table of rows, at least one: cells by heading, in the same order in each."""
+    """The CSV text of one or more rows: cells by heading, in the same order in each row."""
     rows, text = list(rows), io.StringIO(newline="")
     writer = csv.DictWriter(text, fieldnames=rows[0], lineterminator="\n")
     writer.writeheader()
@@ -209,7 +209,7 @@ def _date(cell: str) -> float:
 
 
 def number_in(cell: str) -> float:
-    """The number in a cell; NaN without one. Python alone reads 1_0, as ten."""
+    """The number in a cell; NaN without one. Python reads 1_0 as ten; other programs do not."""
     try:
         return math.nan if "_" in cell else float(cell)
     except ValueError:

@@ -1,1 +1,1 @@
-"""Descriptions of arms: corrected ones, and those from Denavit-Hartenberg parameters."""
+"""Descriptions of arms: corrected URDFs, and URDFs from Denavit-Hartenberg parameters."""

@@ -13,7 +13,7 @@ from recalib.nominal.arms import UNBOUNDED
 from recalib.nominal.denavit_hartenberg import BASE, MOST, TOOL, Row
 from recalib.nominal.kinematics import Arm, tool_frame
 
-MOUNT = f"{TOOL}_mount"  # the joint by which the tool hangs on the last link
+MOUNT = f"{TOOL}_mount"  # the joint between the last link and the tool
 KINDS = "revolute", "prismatic"
 NO_XML = re.compile(r"[^ -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 PARAMETERS = {"a": LENGTH, "alpha": ANGLE, "d": LENGTH, "theta": ANGLE}
@@ -27,10 +27,10 @@ LAYOUT = (
 def read_rows(path: AnyPath) -> list[Row]:
     """The rows of the table at `path`, from the base to the tool.
 
-    Its columns are `joint`, a name; `a` and `d`, lengths; `alpha` and `theta`, angles; and, if
+    The columns are `joint`, a name; `a` and `d`, lengths; `alpha` and `theta`, angles; and, if
     joints slide, `kind`: revolute or prismatic.
 
-    Raises InvalidFile: not such a table, a column that is missing or unknown, a unit, a cell.
+    Raises InvalidFile: not a table, a missing or unknown column, a wrong unit, an invalid cell.
     """
     table = read_table(path)
     columns = table.read(LAYOUT)

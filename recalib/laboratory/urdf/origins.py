@@ -1,8 +1,8 @@
-"""The user's own URDF with other origins: every other byte of the file stays as it was.
+"""The user's own URDF with corrected origins; every other byte of the file stays unchanged.
 
 A calibration moves placements by twists and joints by offsets. Both go into the origins of joints:
 an offset turns a joint's frame about its own axis. If a moving joint carries the tool link
-directly, no origin is left to move it by: the corrected tool is a new link.
+directly, no origin remains to correct the tool. The corrected tool is then a new link.
 """
 
 import re
@@ -20,14 +20,14 @@ from recalib.identification.calibration import Calibration
 from recalib.nominal.descriptions import link_of, local_name, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
 
-CORRECTED = "_corrected"  # ends the name of the new link, after the tool's name
+CORRECTED = "_corrected"  # appended to the tool's name in the name of the new link
 _TAG = re.compile(rb"</?(?P<prefix>(?:[^\s:>\"']+:)?)(?:[^>\"']|\"[^\"]*\"|'[^']*')*>")
 
 
 def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]:
-    """The nominal arm's URDF with corrected geometry, and the link that is the tool there.
+    """The nominal arm's URDF with corrected geometry, and the name of its tool link.
 
-    Raises UnsuitableRobot: joints inside entities, which have no place in the file.
+    Raises UnsuitableRobot if joints are inside XML entities, where they cannot be changed.
     """
     nominal, parameters = calibration.model.nominal, calibration.estimate.parameters
     arm, offsets = calibration.model.own_arm(parameters), offset_poses(calibration)
@@ -50,9 +50,9 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
 
 
 def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = "") -> bytes:
-    """A URDF with other origins (4, 4) [m] for the named joints, and with XML added at its end.
+    """The URDF with new origins (4, 4) [m] of the named joints, and with XML added at its end.
 
-    Nothing else changes. Raises UnsuitableRobot, as `corrected_urdf`.
+    Nothing else changes. Raises UnsuitableRobot like `corrected_urdf`.
     """
     code = encoding(source)
     text = source.decode(code).encode("utf-8")
@@ -69,17 +69,17 @@ def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = 
 
 
 def origin_element(pose: np.ndarray) -> str:
-    """The origin of a joint at a pose (4, 4) [m]."""
+    """The XML of a joint's origin at a pose (4, 4) [m]."""
     return f'<origin xyz="{written(pose[:3, 3])}" rpy="{written(angles_of(pose))}"/>'
 
 
 def written(vector: np.ndarray) -> str:
-    """Numbers (n,) as a URDF has them, with all digits."""
+    """Numbers (n,) as text for a URDF, with all digits."""
     return " ".join(f"{number + 0.0:.17g}" for number in vector)
 
 
 def offset_poses(calibration: Calibration) -> np.ndarray:
-    """The motions (joints, 4, 4) [m] of the joints' frames by their offsets."""
+    """The motions (joints, 4, 4) [m] of the joints' frames due to their offsets."""
     arm = calibration.model.nominal
     offsets = calibration.model.coefficients(calibration.estimate.parameters)["offset"]
     moves, slides = arm.axes * offsets[:, None], arm.slides[:, None]
@@ -90,9 +90,9 @@ def offset_poses(calibration: Calibration) -> np.ndarray:
 
 
 def angles_of(pose: np.ndarray) -> np.ndarray:
-    """Roll, pitch and yaw (3,) [rad] of a pose (4, 4), which give it back even at a pitch of 90.
+    """Roll, pitch and yaw (3,) [rad] of a pose (4, 4), exact even at a pitch of 90 degrees.
 
-    Each angle is taken from what the ones before it leave.
+    Pitch and yaw are computed after the roll is undone.
     """
     turn = pose[:3, :3]
     roll = np.arctan2(turn[2, 1], turn[2, 2])
@@ -105,8 +105,8 @@ def angles_of(pose: np.ndarray) -> np.ndarray:
 def _segments(
     source: bytes, arm: Arm
 ) -> tuple[list[tuple[np.ndarray, str]], tuple[np.ndarray, str | None]]:
-    """For each moving joint, and for the tool: the joint whose origin places it, and the origins
-    (4, 4) of the fixed joints before that one. The tool may have no such joint.
+    """For each moving joint, and for the tool: the product (4, 4) of the origins of fixed joints
+    before it, and the name of the joint whose origin places it. The tool may have no such joint.
     """
     joints = parsed(source, Path("arm.urdf")).findall("joint")
     by_child = {link_of(joint, "child"): joint for joint in joints}
@@ -132,13 +132,13 @@ def _segments(
 
 
 def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int, str]:
-    """First and last byte of each joint's origin, or of where it would be inserted.
+    """The byte range of each joint's origin, which is empty where an origin has to be inserted.
 
-    Also where the root ends, and the prefix of a namespace before the names of tags. The text is in
-    UTF-8, whatever encoding it declares.
+    Also the position of the root's end tag, and the prefix of a namespace in the names of tags. The
+    text is in UTF-8, even if it declares another encoding.
     """
     spans: dict[str, tuple[int, int]] = {}
-    path: list[tuple[str, int]] = []  # names, and where tags end that end their element, else 0
+    path: list[tuple[str, int]] = []  # names, and the ends of self-closing tags (others: 0)
     joint, last, prefix = "", 0, ""
     parser = expat.ParserCreate("utf-8", "}")
 
@@ -165,7 +165,7 @@ def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int, str]:
 
     def end(name: str) -> None:
         nonlocal last
-        # behind an empty element, expat's index is where the next token begins
+        # after a self-closing tag, expat's index is the beginning of the next token
         last = path[-1][1] or tag().end()
         if names() == ["joint", "origin"] and not spans[joint][1]:
             spans[joint] = spans[joint][0], last

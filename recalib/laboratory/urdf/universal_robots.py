@@ -1,8 +1,8 @@
 """Kinematics of a Universal Robots arm in the layout of ur_description (default_kinematics.yaml).
 
-There a joint's frame is Denavit and Hartenberg's, with its z axis along the joint. A URDF may have
-other frames. Each differs from these by a fixed transformation, which follows from the nominal arm.
-So parallel axes move no frame far away.
+In this layout, a joint's frame is that of Denavit and Hartenberg, with its z axis along the joint.
+A URDF may have other frames. Each differs from the layout's by a fixed transformation, which
+follows from the nominal arm. Thus nearly parallel axes move no frame far away.
 """
 
 import hashlib
@@ -23,14 +23,14 @@ _NUMBERS = "x", "y", "z", "roll", "pitch", "yaw"
 
 
 def kinematics_yaml(calibration: Calibration) -> str | None:
-    """The origins of the corrected arm's joints as YAML; None if it is another arm.
+    """The origins of the corrected arm's joints as YAML; None if it is not such an arm.
 
-    Errors beyond the last joint are not among them.
+    The YAML has no place for errors beyond the last joint.
     """
     nominal = calibration.model.nominal
     if (pattern := _pattern(nominal)) is None:
         return None
-    # poses of the pattern's frames relative to the joints' own, with the base first
+    # poses of the layout's frames relative to the URDF's joint frames, with the base first
     relative = np.linalg.inv([np.eye(4), *_frames(nominal.model)]) @ pattern
     corrected = calibration.model.own_arm(calibration.estimate.parameters).model
     placements = [placement.homogeneous for placement in corrected.jointPlacements[1:]]
@@ -44,16 +44,16 @@ def kinematics_yaml(calibration: Calibration) -> str | None:
 
 
 def _frames(model: pin.Model) -> list[np.ndarray]:
-    """Poses (4, 4) of the joints' frames in the base with all joints at zero."""
+    """Poses (4, 4) of the joints' frames in the base, with all joints at zero."""
     data = model.createData()
     pin.forwardKinematics(model, data, np.zeros(model.nq))
     return [placement.homogeneous for placement in data.oMi[1:]]
 
 
 def _pattern(arm: Arm) -> list[np.ndarray] | None:
-    """Poses (4, 4) in the base of the pattern's base and of its joints' frames, at zero.
+    """Poses (4, 4) in the base of the layout's base and joint frames, with all joints at zero.
 
-    None if the arm's joints have other names or lie elsewhere.
+    None if the arm's joints have other names or are placed differently.
     """
     names = [f"{joint}_joint" for joint in JOINTS]
     if len(arm.joints) != 6 or not all(map(str.endswith, arm.joints, names)):
