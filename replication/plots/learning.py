@@ -1,4 +1,4 @@
-"""Figures of learning: how both errors fall, and what remains by scenario and size of damage."""
+"""Figures of learning: the course of both errors, and remaining errors by scenario and damage."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -22,8 +22,8 @@ from replication.plots.style import (
 from replication.training.measured import ERRORS
 from replication.training.plan import leading, places
 
-NEAR = 1.4  # times: two numbers next to an axis that would stand on each other
-FLOOR = 1e-3  # cm and degrees: below it an error is rounding
+NEAR = 1.4  # ratio of two numbers, below which their labels would overlap
+FLOOR = 1e-3  # cm and degrees: smaller errors are rounding
 MOVES = "iterations (two moves each)"
 
 
@@ -33,7 +33,7 @@ def curves(history: pd.DataFrame, error: ErrorStyle) -> pd.DataFrame:
 
 
 def figure_1(evidence: Evidence) -> Figure:
-    """Figure 1 of the paper: both errors in the paper's damage; right: on a logarithmic scale."""
+    """Figure 1 of the paper: both errors with the paper's damage; right: on a logarithmic scale."""
     figure, panels = plt.subplots(1, 2, figsize=(WIDTH, 2.5))
     history = evidence.history(*leading(evidence.study))
     means = history.groupby("iteration")[list(ERRORS)].mean()
@@ -51,7 +51,7 @@ def figure_1(evidence: Evidence) -> Figure:
 
 
 def _label_ends(axes: Axes, means: pd.DataFrame, row: int, aside: float) -> None:
-    """Both errors at the beginning or at the end, one above the other."""
+    """Write both errors next to the curves' beginnings or ends, without overlap."""
     errors = means.iloc[row]
     close = errors.max() < NEAR * errors.min()
     for error in BOTH:

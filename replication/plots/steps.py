@@ -1,4 +1,4 @@
-"""The figure of the factor: how many iterations each step from Ritter's map needs."""
+"""The figure of the factor: the iterations that each step from Ritter's map on needs."""
 
 from collections.abc import Mapping
 
@@ -15,7 +15,7 @@ from replication.judgement.evidence import Evidence
 from replication.plots.palette import BORDER, GREY, NEUTRAL, STYLES, Style
 from replication.plots.style import MARK, WIDTH, logarithmic, name_right, name_rows, note, spread
 
-# By variant, from Ritter's map to the improved system. Colours of learners, whose names are here.
+# Styles by variant, from Ritter's map to the improved system; learners have their usual colours.
 STEPS: Mapping[str, Style] = {
     RITTER: Style("#757575", "^", "-", "Ritter, half the cells"),
     DOUBLE: Style(STYLES[RITTER].color, "P", "-", "Ritter, equal cells"),
@@ -29,7 +29,7 @@ ENDS = 45, 45_000  # iterations
 
 
 def steps(evidence: Evidence) -> Figure:
-    """Below: iterations of each step for the improved system's errors; above: errors."""
+    """Top: errors of each step; bottom: iterations it needs for the improved system's errors."""
     own, outcomes = evidence.study.experiments.iterations, evidence.outcomes()
     goal, home = Remaining(IMPROVED, own), outcomes[outcomes["setup"] == 0]
     shown = {name: style for name, style in STEPS.items() if name in set(home["variant"])}
@@ -72,21 +72,21 @@ def steps(evidence: Evidence) -> Figure:
 
 
 def _needed(values: Values, own: int) -> tuple[np.ndarray, int]:
-    """Iterations (replicate,), and whether they are a bound."""
+    """Iterations (replicate,), and the sign of their bound: 1: at least, -1: at most, 0: none."""
     factors = values.table.to_numpy().ravel()
     finite = np.isfinite(factors)
     return own * np.exp(factors[finite]), int(np.sign(values.bounds.to_numpy().sum()))
 
 
 def _in_words(needed: float, own: int, bound: int = 0) -> str:
-    """Iterations and factor."""
+    """Iterations and factor as text."""
     sign = {1: "> ", -1: "< "}.get(bound, "")
     iterations, factor = (float(f"{value:.2g}") for value in (needed, needed / own))
     return f"{sign}{iterations:,g} ({factor:,g}×)"
 
 
 def _draw_setups(axes: Axes, setups: Values, own: int) -> float:
-    """Iterations in all setups, and where one more study would lie. Returns their mean."""
+    """Draw iterations in all setups, and the predictive interval of one more. Return their mean."""
     model = setups.model()
     beyond = (setups.bounds.max(axis=1) > 0).to_numpy()
     heights = 0.15 + spread(len(beyond))

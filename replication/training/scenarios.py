@@ -1,4 +1,4 @@
-"""The scenarios of all places of the plan, resolved in one job."""
+"""The job that resolves the scenarios of all places in the plan."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,9 +12,9 @@ from replication.training.plan import places
 
 
 def write_scenarios(study: Study, resolved: Sequence[Path]) -> pd.DataFrame:
-    """Resolve the scenarios of all places of the plan, each into its file.
+    """Resolve the scenarios of all places in the plan, and write each to its file.
 
-    Returns every assignment of the paper's damage to the study's own robot; see `resolve`.
+    Returns all assignments of the paper's damage to the study's own robot; see `resolve`.
     """
     files, assignments = dict(zip(places(study), resolved, strict=True)), pd.DataFrame()
     for robot in dict.fromkeys(place.robot for place in files):
