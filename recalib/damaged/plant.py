@@ -66,9 +66,9 @@ class Plant:
             self._refused = np.zeros(len(commands), dtype=int)
         self.moves += commands.shape[1]
         if self._disturbances is None and self._chain is not None:
-            there = self._home_coordinates, np.ascontiguousarray(commands), self._refused
-            given: tuple[Any, ...] = *self._controller.nominal, *self._chain, *there
-            return Outcome(*kernels.move(*given))
+            moves = self._home_coordinates, np.ascontiguousarray(commands), self._refused
+            arguments: tuple[Any, ...] = *self._controller.nominal, *self._chain, *moves
+            return Outcome(*kernels.move(*arguments))
         targets, disturbances = self._controller.targets(commands), self._disturbances
         if disturbances is not None:
             stops = disturbances.of_joints(self._generators, targets.angles.shape[1:])

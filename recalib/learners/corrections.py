@@ -56,10 +56,10 @@ class PolynomialLearner(Observer):
         for move in range(executed.shape[1]):
             features = monomials(achieved[:, [move]], self._degree)
             reach = features @ self._spread  # (run, 1, F)
-            known = executed[:, [move], None]
-            gain = reach / (1 + reach @ features.swapaxes(1, 2)) * known
+            valid = executed[:, [move], None]
+            gain = reach / (1 + reach @ features.swapaxes(1, 2)) * valid
             residuals = (commands - achieved)[:, [move]] - features @ self._coefficients
-            residuals = np.where(known, residuals, 0)  # of a refused move, it may be nan
+            residuals = np.where(valid, residuals, 0)  # of a refused move, it may be nan
             self._coefficients += gain.swapaxes(1, 2) @ residuals
             self._spread -= gain.swapaxes(1, 2) @ reach
 

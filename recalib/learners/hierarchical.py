@@ -106,8 +106,8 @@ class HierarchicalLearner:
         sent = (command + correction)[:, None]
         second = execute(sent)
         check_moves(sent, second.achieved, second.executed, last)
-        held, falls = (winners, theta, jacobian, correction), (self._widths, self._rate)
-        kernels.learn(*cells, *held, *first, *second, self._metric, *falls, fraction)
+        response, falls = (winners, theta, jacobian, correction), (self._widths, self._rate)
+        kernels.learn(*cells, *response, *first, *second, self._metric, *falls, fraction)
         self._waiting += 1
 
     def _settle(self) -> None:
@@ -115,10 +115,10 @@ class HierarchicalLearner:
         waiting, self._waiting, cells = slice(self._waiting), 0, self.cells
         if not waiting.stop:
             return
-        for run, each in np.ndindex(cells.theta.shape[:2]):
-            here, rates = (run, each, waiting), cells.rates[run, waiting]
+        for run, map_ in np.ndindex(cells.theta.shape[:2]):
+            here, rates = (run, map_, waiting), cells.rates[run, waiting]
             g_k, g_kl = cells.g_k[here], cells.g_kl[here]
-            theta, jacobian = cells.theta[run, each], cells.jacobian[run, each]
+            theta, jacobian = cells.theta[run, map_], cells.jacobian[run, map_]
             star = cells.theta_star[here]
             _apply(theta, rates[:, THETA], g_k, g_kl, star, self._increments[THETA])
             star = cells.jacobian_star[here]
@@ -149,27 +149,27 @@ class HierarchicalLearner:
         return [
             {
                 name: {"theta": theta[run].copy(), "jacobian": jacobian[run].copy()}
-                for name, theta, jacobian in self._held()
+                for name, theta, jacobian in self._by_map()
             }
             for run in range(self._runs)
         ]
 
     def restore(self, states: Sequence[State]) -> None:
         self._settle()
-        for name, theta, jacobian in self._held():
+        for name, theta, jacobian in self._by_map():
             theta[:] = [state[name]["theta"] for state in states]
             jacobian[:] = [state[name]["jacobian"] for state in states]
 
-    def _held(self) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    def _by_map(self) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
         """The name of each map, its theta (run, K, L, o) and its Jacobians (run, K, L, o, 6)."""
         cells = self.cells
-        for each, name in enumerate(self.rules.maps):
-            jacobian = cells.jacobian[:, each]
-            yield name, cells.theta[:, each], jacobian.reshape(*jacobian.shape[:-1], -1, 6)
+        for map_, name in enumerate(self.rules.maps):
+            jacobian = cells.jacobian[:, map_]
+            yield name, cells.theta[:, map_], jacobian.reshape(*jacobian.shape[:-1], -1, 6)
 
 
 def _apply(
-    held: np.ndarray,
+    values: np.ndarray,
     rate: np.ndarray,
     g_k: np.ndarray,
     g_kl: np.ndarray,
@@ -179,7 +179,7 @@ def _apply(
     """Add increments to cells (K, L, n), (7) and (9), or draw them to values, (4) and (5)."""
     if increments:
         weighted = rate[:, None] * g_k
-        held += (weighted.T @ kernels.spread_over(g_kl, star)).reshape(held.shape)
+        values += (weighted.T @ kernels.spread_over(g_kl, star)).reshape(values.shape)
     else:
         weights, remaining = kernels.lasting(rate, g_k, g_kl)
-        kernels.draw(held, remaining, weights.T @ star)
+        kernels.draw(values, remaining, weights.T @ star)

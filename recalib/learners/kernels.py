@@ -99,11 +99,11 @@ def commands(plain: tuple[np.ndarray, ...], desired: np.ndarray) -> np.ndarray:
             u = desired[run, pose]
             k, l = nearest(u[:3], cells.w_k), nearest(u[3:], cells.w_kl)
             for row in range(6):
-                each, output = row // outputs, row % outputs
-                total = cells.theta[run, each, k, l, output]
+                map_, output = row // outputs, row % outputs
+                total = cells.theta[run, map_, k, l, output]
                 for column in range(6):
                     centre = cells.w_k[k, column] if column < 3 else cells.w_kl[l, column - 3]
-                    slope = cells.jacobian[run, each, k, l, 6 * output + column]
+                    slope = cells.jacobian[run, map_, k, l, 6 * output + column]
                     total += slope * (u[column] - centre)
                 found[run, pose, row] = total
     return found
@@ -136,23 +136,23 @@ def respond(
         k, l = nearest(u[:3], cells.w_k), nearest(u[3:], cells.w_kl)
         winners[run, 0], winners[run, 1] = k, l
         for row in range(6):
-            each, output = row // outputs, row % outputs
-            theta[run, row] = cells.theta[run, each, k, l, output]
+            map_, output = row // outputs, row % outputs
+            theta[run, row] = cells.theta[run, map_, k, l, output]
             for column in range(6):
-                jacobian[run, row, column] = cells.jacobian[run, each, k, l, 6 * output + column]
-        for each in range(6 // outputs):
-            first = each * outputs
+                jacobian[run, row, column] = cells.jacobian[run, map_, k, l, 6 * output + column]
+        for map_ in range(6 // outputs):
+            first = map_ * outputs
             for update in range(waiting):
-                neighbourhood = cells.g_k[run, each, update, k] * cells.g_kl[run, each, update, l]
+                neighbourhood = cells.g_k[run, map_, update, k] * cells.g_kl[run, map_, update, l]
                 rate_theta = cells.rates[run, update, THETA] * neighbourhood
                 rate_jacobian = cells.rates[run, update, JACOBIAN] * neighbourhood
                 for output in range(outputs):
-                    star = cells.theta_star[run, each, update, output]
+                    star = cells.theta_star[run, map_, update, output]
                     if not increments[THETA]:
                         star -= theta[run, first + output]
                     theta[run, first + output] += rate_theta * star
                     for column in range(6):
-                        star = cells.jacobian_star[run, each, update, 6 * output + column]
+                        star = cells.jacobian_star[run, map_, update, 6 * output + column]
                         if not increments[JACOBIAN]:
                             star -= jacobian[run, first + output, column]
                         jacobian[run, first + output, column] += rate_jacobian * star
@@ -231,13 +231,13 @@ def learn(
         cells.rates[run, waiting, THETA] = c if first_executed[run, 0] else 0.0
         cells.rates[run, waiting, JACOBIAN] = c if both and far else 0.0
         k, l = winners[run]
-        for each in range(6 // outputs):
-            width = fall(widths[0][run, each, 0], widths[1][run, each, 0], fraction, widths[2])
-            _neighbours(cells.squares_k[k], width, cells.g_k[run, each, waiting])
-            width = fall(widths[0][run, each, 1], widths[1][run, each, 1], fraction, widths[2])
-            _neighbours(cells.squares_kl[l], width, cells.g_kl[run, each, waiting])
+        for map_ in range(6 // outputs):
+            width = fall(widths[0][run, map_, 0], widths[1][run, map_, 0], fraction, widths[2])
+            _neighbours(cells.squares_k[k], width, cells.g_k[run, map_, waiting])
+            width = fall(widths[0][run, map_, 1], widths[1][run, map_, 1], fraction, widths[2])
+            _neighbours(cells.squares_kl[l], width, cells.g_kl[run, map_, waiting])
         for row in range(6):
-            each, output = row // outputs, row % outputs
+            map_, output = row // outputs, row % outputs
             error = correction[run, row]
             for column in range(6):
                 error -= jacobian[run, row, column] * moved[column]
@@ -245,12 +245,12 @@ def learn(
             star = correction[run, row]  # (6)
             if not increments[THETA]:
                 star += theta[run, row]  # (2)
-            cells.theta_star[run, each, waiting, output] = star
+            cells.theta_star[run, map_, waiting, output] = star
             for column in range(6):
                 star = error * direction[column]  # (8)
                 if not increments[JACOBIAN]:
                     star += jacobian[run, row, column]  # (3)
-                cells.jacobian_star[run, each, waiting, 6 * output + column] = star
+                cells.jacobian_star[run, map_, waiting, 6 * output + column] = star
 
 
 @inner
@@ -291,9 +291,9 @@ def lasting(rate: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray) -> tuple[np.nda
 
 
 @compiled
-def draw(held: np.ndarray, remaining: np.ndarray, drawn: np.ndarray) -> None:
+def draw(values: np.ndarray, remaining: np.ndarray, drawn: np.ndarray) -> None:
     """Multiply cells (K, L, n) by their remaining weights (K L), then add `drawn` (K L, n)."""
-    cells = held.reshape(drawn.shape)
+    cells = values.reshape(drawn.shape)
     for cell in range(drawn.shape[0]):
         rest = remaining[cell]
         for number in range(drawn.shape[1]):

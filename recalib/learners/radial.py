@@ -86,8 +86,8 @@ class RadialLearner:
         k, l = self.nets.winner(desired)
         winner = self.theta[np.arange(len(k)), k, l]
         widths = fall(*self._widths, fraction, self.rules.width_power)
-        for each, outputs in enumerate(self.rules.maps.values()):
-            g_k, g_kl = self.nets.neighbourhood(k, l, *widths[:, each].T)
+        for map_, outputs in enumerate(self.rules.maps.values()):
+            g_k, g_kl = self.nets.neighbourhood(k, l, *widths[:, map_].T)
             star = increment[:, outputs]
             if not self.rules.theta_increments:
                 star = winner[:, outputs] + star

@@ -90,8 +90,8 @@ class Controller:
         q, r = np.linalg.qr(monomials(coordinates, DEGREE))
         start = *factors(6, DEGREE), np.linalg.solve(r, q.T @ angles)
         limits = self.robot.lower, self.robot.upper
-        given: tuple[Any, ...] = *self._chain, *self.robot.workspace.region, *start, *limits
-        return kernels.ControllerArrays(*given)
+        arguments: tuple[Any, ...] = *self._chain, *self.robot.workspace.region, *start, *limits
+        return kernels.ControllerArrays(*arguments)
 
     def solve(self, poses: np.ndarray) -> Targets:
         """Joint targets for the commanded poses (..., 4, 4), also for unreachable ones."""

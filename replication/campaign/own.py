@@ -32,12 +32,12 @@ def reference(study: Study, scenario: Resolved) -> Setup:
     """The study's own setup: the first level of each factor, and its own scenario."""
     factors = study.campaign.factors
     levels = {name: str(getattr(factors, name)[0]) for name in Factors.model_fields}
-    own = {"robot": study.robot, "coordinates": scenario.nominal.robot.workspace.coordinates}
+    overrides = {"robot": study.robot, "coordinates": scenario.nominal.robot.workspace.coordinates}
     return Setup(
         setup=0,
         row=0,
         seed=study.seed,
-        levels=levels | own,
+        levels=levels | overrides,
         home_deg=tuple(map(math.degrees, scenario.nominal.robot.home.values())),
         homes_refused=0,
         damage=scenario.damages,

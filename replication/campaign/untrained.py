@@ -25,10 +25,10 @@ def untrained(study: Study, design: Path) -> pd.DataFrame:
     mapping's Jacobian for these commands (95 % quantile over poses). The others are initial errors
     with a new random assignment of the paper's damage, scaled to the study's own robot.
     """
-    rows, own = [], study.robots[study.robot].workspace
+    rows, reference = [], study.robots[study.robot].workspace
     for setup in read_design(design):
         nominal = setup.nominal(study)
-        controller, scale = nominal_controller(nominal), nominal.robot.workspace.scale_to(own)
+        controller, scale = nominal_controller(nominal), nominal.robot.workspace.scale_to(reference)
         random = generator(setup.seed, "untrained")
         desired = controller.robot.workspace.sample(random, study.mapping.poses)
         arm = apply(controller.robot, damages_among(setup.damage))

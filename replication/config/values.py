@@ -112,9 +112,9 @@ def _with_places(node: Node | None, reader: SafeConstructor, place: Place) -> Pl
     match node:
         case MappingNode():
             # the node of an alias may have been flattened before: skip its merged keys, in front
-            own = [key for key, _ in node.value[len(node.merge or ()) :]]
-            for index, key in enumerate(own):
-                if key.value in [other.value for other in own[:index]]:
+            keys = [key for key, _ in node.value[len(node.merge or ()) :]]
+            for index, key in enumerate(keys):
+                if key.value in [other.value for other in keys[:index]]:
                     raise _mistaken(f"duplicate key {key.value}", key)
             reader.flatten_mapping(node)  # puts keys merged by << in front
             for key, _ in node.value:

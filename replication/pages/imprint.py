@@ -35,11 +35,11 @@ class Imprint(NamedTuple):
 def missing(project: Path = Path()) -> list[str]:
     """Missing or contradictory fields, in one sentence each."""
     imprint = Imprint.read(project)
-    lacking = []
+    mistakes = []
     if NOBODY in imprint.authors:
-        lacking.append(f"pyproject.toml: authors are {NOBODY!r}; expected: names of people.")
+        mistakes.append(f"pyproject.toml: authors are {NOBODY!r}; expected: names of people.")
     if not re.fullmatch(r"https://\S+[^/\s]", imprint.repository):
-        lacking.append(
+        mistakes.append(
             f"pyproject.toml: Repository in [project.urls] is {imprint.repository!r}; expected:"
             " the address of the code, such as https://github.com/OWNER/recalib."
         )
@@ -49,12 +49,12 @@ def missing(project: Path = Path()) -> list[str]:
         "repository": imprint.repository,
     }
     for name, found in _elsewhere(project).items():
-        lacking += [
+        mistakes += [
             f"{name}: {field} is {value!r}; expected: {expected[field]!r}."
             for field, value in found.items()
             if value != expected[field]
         ]
-    return lacking
+    return mistakes
 
 
 def _elsewhere(project: Path) -> dict[str, dict[str, Any]]:
@@ -82,6 +82,6 @@ def _name(author: dict[str, str]) -> str:
 
 
 if __name__ == "__main__":
-    _lacking = missing()
-    print("\n".join(_lacking) or "Authors, address and version are the same everywhere.")
-    sys.exit(bool(_lacking))
+    _mistakes = missing()
+    print("\n".join(_mistakes) or "Authors, address and version are the same everywhere.")
+    sys.exit(bool(_mistakes))

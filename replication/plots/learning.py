@@ -100,16 +100,16 @@ def learners(evidence: Evidence) -> Figure:
 
 def scenarios(evidence: Evidence) -> Figure:
     """Both errors before and after learning in every scenario, and on every robot."""
-    own = evidence.study.experiments.learners
+    main = evidence.study.experiments.learners
     planned = places(evidence.study)
-    trained = [place for place in planned if own.keys() <= planned[place].keys()]
+    trained = [place for place in planned if main.keys() <= planned[place].keys()]
     names = [
         words(place.scenario)
         + (f",\non the {place.robot.upper()}" if place.robot != evidence.study.robot else "")
         for place in trained
     ]
     rows = np.arange(len(trained))[::-1]
-    styles = styles_of_trainings((name, length) for name in own for length in own[name])
+    styles = styles_of_trainings((name, length) for name in main for length in main[name])
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(WIDTH, 1.4 + 0.34 * len(rows)))
     offsets = 0.24 * (np.arange(len(styles))[::-1] - (len(styles) - 1) / 2)
     for axes, error in zip(panels, BOTH, strict=True):

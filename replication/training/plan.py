@@ -30,10 +30,10 @@ Lengths = dict[str, tuple[int, ...]]  # by learner, ascending
 
 def places(study: Study) -> dict[Place, Lengths]:
     """The learners and their numbers of iterations, by robot and scenario."""
-    plan, own = study.experiments, Place(study.robot, study.scenario)
+    plan, main = study.experiments, Place(study.robot, study.scenario)
     planned = {Place(study.robot, scenario): dict(plan.learners) for scenario in plan.scenarios}
     planned |= {Place(robot, study.scenario): dict(plan.learners) for robot in plan.robots}
-    own_learners = planned.setdefault(own, {})
+    own_learners = planned.setdefault(main, {})
     more = [*plan.own.items()]
     if plan.switches:
         names = (name for switch in SWITCHES for name in (switch.without, switch.added))

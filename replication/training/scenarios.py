@@ -18,9 +18,9 @@ def write_scenarios(study: Study, resolved: Sequence[Path]) -> pd.DataFrame:
     """
     files, assignments = dict(zip(places(study), resolved, strict=True)), pd.DataFrame()
     for robot in dict.fromkeys(place.robot for place in files):
-        own = [place for place in files if place.robot == robot]
-        scenarios, table = resolve(study, robot, [place.scenario for place in own])
-        for place, scenario in zip(own, scenarios, strict=True):
+        selected = [place for place in files if place.robot == robot]
+        scenarios, table = resolve(study, robot, [place.scenario for place in selected])
+        for place, scenario in zip(selected, scenarios, strict=True):
             with whole(files[place]) as path:
                 path.write_text(scenario.model_dump_json(indent=2) + "\n", encoding="utf-8")
         if robot == study.robot:

@@ -25,14 +25,14 @@ from replication.judgement.findings import Finding, written
 
 def claims(study: Study) -> list[Claim]:
     """All claims of the paper."""
-    own, late = study.experiments.iterations, study.campaign.late
+    iterations, late = study.experiments.iterations, study.campaign.late
     return [
-        *section_3.claims(own),
-        *section_4.claims(own, late),
-        *section_5.claims(own),
-        *section_6.claims(own),
-        *section_7.claims(own),
-        *section_8.claims(own),
+        *section_3.claims(iterations),
+        *section_4.claims(iterations, late),
+        *section_5.claims(iterations),
+        *section_6.claims(iterations),
+        *section_7.claims(iterations),
+        *section_8.claims(iterations),
     ]
 
 
