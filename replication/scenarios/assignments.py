@@ -1,7 +1,7 @@
 """All assignments of the paper's damage to links, encoders and signs (section 7).
 
 The paper gives the amounts by which three links were shortened and three encoders were shifted, and
-the initial errors. It does not tell the links, the encoders, or the signs.
+the initial errors. It gives neither the links and encoders nor the signs.
 """
 
 from collections.abc import Sequence
