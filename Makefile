@@ -101,7 +101,7 @@ slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults
 faults: tools ## kill runs and commands, start two at once, damage and mistype files, fill the disk (12 minutes)
 	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
-mutants: tools .venv/extras ## plant small random errors in the code, and list those that no test detects: docs/mutants.md
+mutants: tools .venv/extras ## plant small random errors in the code, and list those that no test detects, with the time left: docs/mutants.md
 	.venv/bin/python -m tests.mutants --count $(COUNT)
 
 peers: tools ## compare our calibration with figaroh and robotkinecal, each in its own environment: docs/peers.md
