@@ -8,7 +8,7 @@ RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
 STUDY_FILE = $(firstword $(wildcard $(STUDY).yaml workflow/studies/$(STUDY).yaml))
 NO_SUCH = $(if $(filter replication,$(STUDY))$(STUDY_FILE),,$(error there is no $(STUDY).yaml; see docs/bend.md))
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES) $(addprefix --configfile ,$(STUDY_FILE))
-# a line for each file that is made, and errors
+# prints one line for each new file, and errors
 BRIEFLY = --quiet rules reason host progress
 RECORDINGS = $(RESULTS)/recordings
 RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
@@ -19,29 +19,29 @@ UV = .venv/bin/uv --quiet --no-python-downloads
 PYTEST = .venv/bin/python -m pytest
 LOCK = .venv/bin/uv pip compile pyproject.toml --universal --generate-hashes --no-emit-index-url \
   --python-version 3.11 --custom-compile-command "make lock"
-# images of containers often forbid Python to keep what it compiled: each job would do it again
+# container images often disable Python's cache of compiled modules: each job would compile again
 export PYTHONDONTWRITEBYTECODE =
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
 .PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults mutants peers witness check bench latency article archive reproduce docs film view web notebook tune design campaign ship lock clean
 
-all: setup ## the full replication
+all: setup ## run the full replication
 	$(SNAKEMAKE) $(BRIEFLY)
 
-help: ## this list
+help: ## print this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' $(MAKEFILE_LIST) | tr '|' '\t' | expand -t 12
 
 quick: STUDY = quick
-quick: study ## a small replication, in two minutes with its set-up: results/studies/quick
+quick: study ## run a small replication, in two minutes including the set-up: results/studies/quick
 
-study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
+study: setup ## run your own study or one in workflow/studies: make study STUDY=my_arm; see docs/bend.md
 	$(NO_SUCH)
 	@.venv/bin/python -m replication.config.reading $(STUDY_FILE)
 	$(SNAKEMAKE) $(BRIEFLY)
 
-setup: .venv/installed ## the environment of the studies, from requirements.lock
+setup: .venv/installed ## install the packages for studies, from requirements.lock
 
-tools: .venv/tools ## what tests, pages and the article need besides, from requirements-dev.lock
+tools: .venv/tools ## install the packages for tests, pages and the article, from requirements-dev.lock
 
 .venv/installed: requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; (3, 11) <= sys.version_info < (3, 14) or sys.exit(f"$(PYTHON) is Python \
@@ -55,97 +55,97 @@ tools: .venv/tools ## what tests, pages and the article need besides, from requi
 	$(PIP) --require-hashes -r requirements-dev.lock
 	touch $@
 
-cluster: .venv/extras ## what Snakemake needs to talk to Slurm, from requirements-extras.lock; see docs/cluster.md
+cluster: .venv/extras ## install Snakemake's plugin for Slurm, from requirements-extras.lock; see docs/cluster.md
 
-vision: .venv/extras ## OpenCV for pictures of a board, from requirements-extras.lock; see docs/pictures.md
+vision: .venv/extras ## install OpenCV for pictures of a board, from requirements-extras.lock; see docs/pictures.md
 
-live: .venv/extras ## MuJoCo for an arm with dynamics, from requirements-extras.lock; see docs/live_paper.md
+live: .venv/extras ## install MuJoCo for an arm with dynamics, from requirements-extras.lock; see docs/live_paper.md
 
 .venv/extras: .venv/installed requirements-extras.lock
 	$(PIP) --require-hashes -r requirements-extras.lock
 	touch $@
 
-test: lint ## the linters and all tests except whole workflows, examples, sites and environments
+test: lint ## run the linters and all tests except whole workflows, examples, sites and environments
 	$(PYTEST) -m "not slow"
 
-test-all: lint ## the linters and all tests
+test-all: lint ## run the linters and all tests
 	$(PYTEST)
 
-lint: tools ## the linters and the types
+lint: tools ## run the linters and the type checker
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 	.venv/bin/lint-imports
 	.venv/bin/snakefmt --check Snakefile workflow/rules
 
-lines: ## count the lines of Python
+lines: ## count the lines of Python code
 	@for part in recalib replication workflow tests; do echo "$$part: $$(git ls-files "$$part/*.py" | xargs cat | wc -l)"; done
 
-dist: tools ## build what is released, the sources and the wheel, in dist/
+dist: tools ## build the release, sources and wheel, in dist/
 	rm -rf dist
 	.venv/bin/python -m build --no-isolation --outdir dist
 	.venv/bin/twine check --strict dist/*
 
-elsewhere: dist ## unpack the released sources elsewhere, and run make test and make quick there; PYTHON=python3.13 for another Python
+elsewhere: dist ## unpack the release in a temporary folder, and run make test and make quick there; PYTHON=python3.13 for another Python
 	$(ELSEWHERE) && tar --extract --file dist/recalib-*.tar.gz --directory "$$folder" --strip-components 1 && \
 	  make --directory "$$folder" PYTHON=$(PYTHON) test quick
 
-lowest: tools ## the library's tests with the lowest versions that pyproject.toml allows
+lowest: tools ## run the library's tests with the lowest versions that pyproject.toml allows
 	$(ELSEWHERE) && $(UV) venv --python .venv/bin/python "$$folder" && \
 	  $(UV) pip install --python "$$folder" --resolution lowest-direct .[laboratory,study,vision,dev] && \
 	  "$$folder/bin/python" -m pytest -m "not slow" $(addprefix tests/,damaged identification laboratory learners nominal vision/test_boards.py vision/test_patterns.py)
 
-slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults; says what is missing for it
+slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults; reports missing programs
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
 faults: tools ## kill runs and commands, start two at once, damage and mistype files, fill the disk (12 minutes)
 	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
-mutants: tools .venv/extras ## plant small random errors in the code, and list those that no test notices, with the time left: docs/mutants.md
+mutants: tools .venv/extras ## plant small random errors in the code, and list those that no test detects, with the time left: docs/mutants.md
 	.venv/bin/python -m tests.mutants --count $(COUNT)
 
-peers: tools ## compare our calibration with figaroh and robotkinecal, each in an environment of its own: docs/peers.md
+peers: tools ## compare our calibration with figaroh and robotkinecal, each in its own environment: docs/peers.md
 	.venv/bin/python -m tests.peers $(addprefix --recording ,$(RECORDED))
 
-witness: setup ## train variants of three setups in a second implementation, from the paper alone, and compare (30 minutes)
+witness: setup ## train variants of three setups with a second, independent implementation, and compare (30 minutes)
 	.venv/bin/python -m tests.bars.witness config.yaml workflow/campaign/design.csv workflow/campaign/outcomes.csv 0 1 2
 
 check: setup ## only compare the final errors with their bands
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
 
-bench: setup ## measure how long a move takes, with learning and without
+bench: setup ## measure the time of a move, with and without learning
 	$(SNAKEMAKE) --quiet rules reason host -- results/robots/ur10/links_encoders.json
 	.venv/bin/python -m tests.bars.moves results/robots/ur10/links_encoders.json
 
-latency: vision live ## measure how fast a live calibration answers, and a corrected command
+latency: vision live ## measure the response times of a live calibration and of a corrected command
 	.venv/bin/python -m tests.bars.latency
 
-article: tools all ## the article, results/article.pdf
+article: tools all ## typeset the article, results/article.pdf
 	$(SNAKEMAKE) -- results/article.pdf
 
-archive: article ## code, results, recordings and article in one file, results/archive.zip
+archive: article ## pack code, results, recordings and article into one file, results/archive.zip
 	.venv/bin/python -m replication.pages.archive results/archive.zip
 
-reproduce: archive ## unpack the archive elsewhere, and check that it reproduces its results (5 minutes)
+reproduce: archive ## unpack the archive in a temporary folder, and check that it reproduces its results (5 minutes)
 	$(ELSEWHERE) && archive="$$PWD/results/archive.zip" && cd "$$folder" && $(PYTHON) -m zipfile --extract "$$archive" . && \
 	  cd recalib-* && make PYTHON=$(PYTHON) CORES=$(CORES) && cd results && sha256sum --check --quiet ../published/SHA256SUMS
 
-docs: tools ## these pages and a reference as a site, results/site/index.html
+docs: tools ## build the pages and a reference as a site, results/site/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/python -m mkdocs build --quiet --strict
 	@echo "the site: results/site/index.html"
 
-film: setup ## film a recording; SCENARIO=NAME for another one; needs a Vulkan driver such as mesa-vulkan-drivers
+film: setup ## make a film of a recording; SCENARIO=NAME for another one; needs a Vulkan driver such as mesa-vulkan-drivers
 	$(SNAKEMAKE) --forcerun film -- $(RESULTS)/figures/$(FILMED).webp
 	$(if $(SCENARIO)$(filter-out replication,$(STUDY)),,cp results/figures/$(FILMED).webp figures/arm.webp)
 
 view: setup ## open a recording; make view SCENARIO=links or STUDY=ur3 opens another one
 	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
-# with CI, the viewer collects and sends no statistics
+# with CI=true, the viewer collects and sends no statistics
 	CI=true .venv/bin/rerun --bind 127.0.0.1 --new $(RECORDING) \
 	  || { echo "No display for a window here? make web shows the same in a browser."; exit 1; }
 
-web: setup ## show a recording in a browser, also from a server; SCENARIO and STUDY as for make view
+web: setup ## show a recording in a browser, also from a server; SCENARIO and STUDY as in make view
 	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
 	.venv/bin/python -m replication.recording.web_viewer $(RECORDING) $(RESULTS)/web
@@ -154,21 +154,21 @@ web: setup ## show a recording in a browser, also from a server; SCENARIO and ST
 notebook: .venv/extras ## damage an arm with sliders, in a browser
 	MARIMO_SKIP_UPDATE_CHECK=1 .venv/bin/marimo run --host 127.0.0.1 --port $(PORT) examples/notebook.py
 
-tune: ## find the settings of every variant in the reference study anew, and ship them (an hour)
+tune: ## search again for the settings of every variant in the reference study, and ship them (an hour)
 	$(MAKE) campaign SETUP=0
 
-campaign: setup ## measure what is missing of the campaign and ship it, or SETUP=N again (half an hour of a core each)
+campaign: setup ## measure the missing setups of the campaign, or SETUP=N again, and ship them (half an hour on a core each)
 	$(SNAKEMAKE) $(if $(SETUP),--forcerun outcomes -- results/campaign/outcomes/$(SETUP)/0.csv,campaign)
 	.venv/bin/python -m replication.campaign.ship results/campaign/outcomes
 
-design: setup ## draw the setups of the campaign anew, and ship them
+design: setup ## draw the setups of the campaign again, and ship them
 	$(SNAKEMAKE) --forcerun design -- results/campaign/design.csv
 	cp results/campaign/design.csv workflow/campaign/
 
-ship: setup ## make the present config.yaml the shipped study
+ship: setup ## make the current config.yaml the shipped study
 	.venv/bin/python -m replication.running.studies
 
-lock: tools ## pin the dependencies of pyproject.toml anew
+lock: tools ## update the pinned versions of all dependencies
 	$(LOCK) --extra study --output-file requirements.lock
 	$(LOCK) $(addprefix --extra ,study dev docs article) --constraint requirements.lock --output-file requirements-dev.lock
 	$(LOCK) $(addprefix --extra ,study vision live cluster notebook mutants) --constraint requirements-dev.lock \

@@ -1,4 +1,4 @@
-"""Automatic recalibration of a space robot (1996), replicated: `snakemake --cores 2` does it all."""
+"""Replication of "Automatic recalibration of a space robot" (1996): run `snakemake --cores 2`."""
 
 from snakemake.utils import min_version
 
@@ -18,4 +18,4 @@ rule all:
     input:
         EVERYTHING,
     message:
-        "All results are there"
+        "All results are complete"

@@ -1,4 +1,4 @@
-"""Links that a collision bends or twists."""
+"""Links bent or twisted by a collision."""
 
 from dataclasses import dataclass
 
@@ -18,14 +18,14 @@ class LinkBend(Damage, words=("bend",)):
 
     link: Link
     bend: SignedTurn
-    """Angle between the line's halves."""
+    """Angle between the two halves of the line."""
     towards: Direction = 0.0
-    """Where its outer half goes: the angle about the line from the axis that is most across it."""
+    """Direction of the bend: angle about the line, from the frame axis most nearly across it."""
 
     def apply(self, arm: Arm, damaged: DamagedArm) -> None:
         end = end_of(arm, self.link, damaged)
         line = _line(end.translation, self.link)
-        # rounded: of two axes that are equally far across, the first
+        # rounding makes the choice between two equally good axes definite: the first
         across = np.eye(3)[np.abs(line).round(6).argmin()]
         side = np.cross(line, across) / np.linalg.norm(np.cross(line, across))
         axis = Rotation.from_rotvec(self.towards * line).apply(side)
@@ -41,7 +41,7 @@ class LinkTwist(Damage, words=("twist",)):
 
     link: Link
     twist: SignedTurn
-    """Angle by which its end is turned."""
+    """Angle by which the link's end is turned."""
 
     def apply(self, arm: Arm, damaged: DamagedArm) -> None:
         end = end_of(arm, self.link, damaged)
@@ -50,7 +50,7 @@ class LinkTwist(Damage, words=("twist",)):
 
 
 def _line(end: np.ndarray, link: str) -> np.ndarray:
-    """The direction (3,) of a link. Raises InvalidSetting: it has no length."""
+    """Unit vector (3,) along a link. Raises InvalidSetting if the link has no length."""
     length = np.linalg.norm(end)
     if length < 1e-9:
         raise InvalidSetting("link", link, "a link with a length")

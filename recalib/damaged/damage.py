@@ -1,6 +1,6 @@
-"""Damages of a robot, alone or combined: moved as a whole, links shortened, encoders shifted.
+"""The damages of section 7, alone or combined: displaced base, short links, shifted encoders.
 
-These are the damages of section 7; `recalib.damaged.nongeometric` has more.
+`recalib.damaged.nongeometric` and `recalib.damaged.bending` have more.
 """
 
 from collections.abc import Callable, Iterable
@@ -20,20 +20,20 @@ from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot, link_end
 
-Along = Literal["line", "axis"]  # in which a link is shortened
+Along = Literal["line", "axis"]  # the direction in which a link is shortened
 
 
 @dataclass
 class DamagedArm:
     """The real arm: its kinematics and its encoder offsets.
 
-    All damages are done before it is asked where it goes: see `apply`.
+    Apply all damages before the first call of `forward`: see `apply`.
 
     Attributes:
         arm: the damaged kinematics.
-        offsets: (joint,) rad by which each joint stands beyond the angle that its encoder reports.
-        deflections: of joints by their numbers, each a function of the joint's angles (n,) [rad]
-            and of the torques (n,) [N m] that hold it against gravity: what it adds to the angles.
+        offsets: (joint,) rad, true joint angle minus the angle that the encoder reports.
+        deflections: pairs of a joint's index and a function, which returns the angles (n,) [rad] to
+            add, given the joint's angles (n,) [rad] and its torques (n,) [N m] against gravity.
     """
 
     arm: Arm
@@ -45,23 +45,23 @@ class DamagedArm:
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
-        A controller assumes angles (n, joint) [rad]. Raises InvalidSetting: another shape.
+        `angles` (n, joint) [rad] are the controller's. Raises InvalidSetting for another shape.
         """
         joints = array_of("angles", angles, ("n", len(self.offsets)))
         return self.chain.forward(self._deflected(joints)[None])[0]
 
     @cached_property
     def chain(self) -> Chain:
-        """Its kinematics at angles that encoders report if nothing gives way.
+        """The damaged kinematics as a function of encoder angles, without deflections.
 
-        It is fixed at its first use, so all damages must be applied before.
+        It is cached at its first use, so all damages must be applied before.
         """
         return Chain.of(self.arm, self.offsets)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
-        """True joint angles (n, joint) [rad] at angles (n, joint) [rad] that a controller assumes.
+        """True joint angles (n, joint) [rad], given the controller's angles (n, joint) [rad].
 
-        Every deflection starts from the shifted angles, so that the order of the damages does not
+        Every deflection is computed at the shifted angles, so the order of the damages does not
         matter.
         """
         return self._deflected(angles) + self.offsets
@@ -78,33 +78,33 @@ class DamagedArm:
 
 @dataclass(frozen=True)
 class Damage(Imperfection):
-    """Anything that can happen to an arm. A new kind is a class in a module of this package."""
+    """Base class of damages. To add a kind, define a class in a module of this package."""
 
     def apply(self, arm: Arm, damaged: DamagedArm) -> None:
-        """Do it to the damaged arm; `arm` is the nominal one, which stays as it is.
+        """Apply this damage to `damaged`, in place; `arm` is the nominal arm and does not change.
 
-        Raises UnknownName (link, joint) and InvalidSetting (more than the arm can lose).
+        Raises UnknownName (link, joint) and InvalidSetting (a damage larger than the arm allows).
         """
         raise NotImplementedError
 
     def scaled(self, factor: float) -> Self:
         """This damage, `factor` times as large."""
-        grown = {}
+        scaled = {}
         for name in self.amounts():
             value = getattr(self, name)
             several = isinstance(value, tuple)
-            grown[name] = tuple(x * factor for x in value) if several else value * factor
-        return replace(self, **grown)
+            scaled[name] = tuple(x * factor for x in value) if several else value * factor
+        return replace(self, **scaled)
 
 
 @dataclass(frozen=True)
 class BaseShift(Damage, words=("translate", "rotate")):
-    """A displacement of the whole robot, unknown to the controller."""
+    """A displacement of the whole robot that the controller does not know."""
 
     translate: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
-    """Of the whole robot along the base's x, y and z."""
+    """Translation of the whole robot along the base's x, y and z."""
     rotate: tuple[SignedTurn, SignedTurn, SignedTurn] = (0.0, 0.0, 0.0)
-    """Of the whole robot: roll, pitch and yaw about the base's axes, R = Rz Ry Rx."""
+    """Rotation of the whole robot: roll, pitch and yaw about the base's axes, R = Rz Ry Rx."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -119,13 +119,13 @@ class BaseShift(Damage, words=("translate", "rotate")):
 
 @dataclass(frozen=True)
 class LinkShortening(Damage, words=("shorten",)):
-    """A link shortened between its joints (the last: joint and tool)."""
+    """A link shortened between its joints; the last link, between its joint and the tool."""
 
     link: Link
     shorten: Amount
     """Length taken off."""
     along: Along = "line"
-    """The straight line between its joints, or the axis of its frame along which it is longest."""
+    """Along the straight line between the joints, or the frame axis along which it is longest."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -144,18 +144,18 @@ class LinkShortening(Damage, words=("shorten",)):
 
 @dataclass(frozen=True)
 class EncoderShift(Damage, words=("encoder", "shift")):
-    """An encoder that reports an angle with a constant error."""
+    """A constant error of the angle that an encoder reports."""
 
     encoder: Joint
     shift: SignedTurn
-    """Angle by which the joint stands beyond what its encoder reports."""
+    """True joint angle minus the reported angle."""
 
     def apply(self, arm: Arm, damaged: DamagedArm) -> None:
         damaged.offsets[joint_index(arm, self.encoder)] += self.shift
 
 
 def end_of(arm: Arm, link: str, damaged: DamagedArm) -> pin.SE3:
-    """Where a link ends in the frame of the joint that moves it; changing it changes the arm.
+    """The end of a link in the frame of the joint that moves it. Changing it changes the arm.
 
     Raises UnknownName.
     """
@@ -164,7 +164,7 @@ def end_of(arm: Arm, link: str, damaged: DamagedArm) -> pin.SE3:
 
 
 def joint_index(arm: Arm, joint: str) -> int:
-    """Which joint of the arm has this name. Raises UnknownName: none, or one that slides."""
+    """Index of a joint, by its name. Raises UnknownName if no turning joint has this name."""
     turning = [name for name, slides in zip(arm.joints, arm.slides, strict=True) if not slides]
     check_name("turning joint", joint, turning)
     return arm.joints.index(joint)
@@ -173,8 +173,7 @@ def joint_index(arm: Arm, joint: str) -> int:
 def apply(nominal: Robot | Arm, damages: Iterable[Damage]) -> DamagedArm:
     """The nominal arm with damages applied in order.
 
-    Raises InvalidSetting: something else than an arm or damages; and what these raise: see
-    `Damage.apply`.
+    Raises InvalidSetting for arguments of other types, and the exceptions of `Damage.apply`.
     """
     check_kind("nominal", nominal, Robot, Arm)
     check_kind("damages", damages, Iterable)

@@ -1,4 +1,4 @@
-"""What keeps a real arm from repeating itself and an instrument from measuring it exactly."""
+"""Random errors of a simulated arm: its repeatability, measurement noise and outliers."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
@@ -35,9 +35,9 @@ class Outliers(Imperfection, words=("outlier_share", "outlier_size")):
     """Gross measurement errors in random directions."""
 
     outlier_share: bounded.Share = 0.0
-    """Of all measurements."""
+    """Share of outliers among all measurements."""
     outlier_size: bounded.Amount = 0.0
-    """By how much they miss the true position."""
+    """Distance of an outlier from the true position."""
 
 
 Disturbance = Noise | Repeatability | Outliers
@@ -47,7 +47,7 @@ Disturbance = Noise | Repeatability | Outliers
 class Disturbances:
     """Random errors of moves and measurements; none by default.
 
-    Raises InvalidSetting: something else in their place.
+    Raises InvalidSetting for a field of another type.
     """
 
     noise: Noise = Noise()
@@ -60,11 +60,11 @@ class Disturbances:
 
     @classmethod
     def of(cls, parts: Iterable[Disturbance]) -> "Disturbances":
-        """Those that are among the parts. Raises InvalidSetting: two of a kind, or another one."""
+        """Disturbances from a list. Raises InvalidSetting for two of one kind, or another type."""
         by_name: dict[str, Any] = {}
         for part in parts:
             check_kind("disturbance", part, Noise, Repeatability, Outliers)
-            name = type(part).__name__.lower()  # which says of what kind each is
+            name = type(part).__name__.lower()  # also the name of the field
             if name in by_name:
                 raise InvalidSetting(name, "there twice", "once in a list of damages")
             by_name[name] = part
@@ -73,19 +73,19 @@ class Disturbances:
     def of_joints(
         self, generators: Sequence[np.random.Generator], shape: tuple[int, int]
     ) -> np.ndarray:
-        """By how much each joint misses its angle, (run, *shape) rad. It means nothing of slides.
+        """Random joint errors (run, *shape) [rad], from one generator for each run.
 
-        The shape is (moves, joints); there is a generator for each run.
+        `shape` is (moves, joints). Errors of sliding joints have no meaning: ignore them.
         """
         return self.repeatability.repeatability * np.stack(
             [generator.standard_normal(shape) for generator in generators]
         )
 
     def measure(self, generators: Sequence[np.random.Generator], poses: np.ndarray) -> np.ndarray:
-        """Measured poses (run, move, 4, 4), by a generator for each run."""
+        """Measured poses (run, move, 4, 4), with random errors from one generator for each run."""
         moves = poses.shape[1]
-        # Every number is drawn, also where its size is zero: runs that differ in one size share
-        # all other numbers.
+        # Draw every number, even if its deviation is zero: runs that differ in one deviation then
+        # share all other numbers.
         draws = [
             (rng.standard_normal((3, moves, 3)), rng.uniform(size=(moves, 1))) for rng in generators
         ]

@@ -1,6 +1,6 @@
-"""By what a real arm may differ from its model: damages, and what disturbs moves and measurements.
+"""Base class of damages and of disturbances: differences between a real arm and its model.
 
-The fields of a class are the keys of a configuration: {link: forearm_link, shorten: 4 cm}.
+The fields of a class are the keys of a configuration entry: {link: forearm_link, shorten: 4 cm}.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Named:
-    """The note of a name: what it names, for editors and messages."""
+    """Annotation of a name with its meaning, for editors and messages."""
 
     meaning: str
 
@@ -34,14 +34,14 @@ Joint = Annotated[str, Named("A joint of the robot.")]
 
 @dataclass(frozen=True)
 class Imperfection:
-    """Base of frozen dataclasses: a new kind is one more class. Amounts are in SI units.
+    """Base of frozen dataclasses; each subclass is a new kind. Amounts are in SI units.
 
-    As the type of a part of a configuration it is read as the kind whose keys are there.
+    A configuration field of this type accepts every kind; the keys of an entry select the kind.
 
     Attributes:
-        kinds: every kind, by each of its words.
+        kinds: every kind, under each of its identifying fields (`words`).
 
-    Raises InvalidSetting for an amount beyond the bounds of its type.
+    Raises InvalidSetting if an amount is outside the bounds of its type.
     """
 
     kinds: ClassVar[dict[str, type["Imperfection"]]] = {}
@@ -51,7 +51,7 @@ class Imperfection:
     }
 
     def __init_subclass__(cls, words: Iterable[str] = ()) -> None:
-        """Args: words: fields that tell this kind from all others; none: it is a base of kinds."""
+        """Args: words: fields that identify this kind; none for a base class of kinds."""
         super().__init_subclass__()
         for word in words:
             if word in cls.kinds:
@@ -67,7 +67,7 @@ class Imperfection:
     @classmethod
     @cache
     def bounds(cls) -> Mapping[str, Bounded]:
-        """Of each field that holds a quantity, or three of them."""
+        """Bounds of each field that holds a quantity or three of them."""
         hints = get_type_hints(cls, include_extras=True)
         return {
             field.name: note
@@ -78,7 +78,7 @@ class Imperfection:
 
     @classmethod
     def amounts(cls) -> list[str]:
-        """The fields that say how large it is."""
+        """The fields that hold its size, in contrast to its direction."""
         return [name for name, bounds in cls.bounds().items() if not bounds.direction]
 
     @classmethod
@@ -97,7 +97,7 @@ class Imperfection:
             return value
 
         for module in iter_modules(recalib.damaged.__path__):
-            import_module(f"recalib.damaged.{module.name}")  # its kinds are known from then on
+            import_module(f"recalib.damaged.{module.name}")  # this registers its kinds
         choices = {kind.__name__: handler.generate_schema(kind) for kind in _kinds()}
         union = core_schema.tagged_union_schema(choices, _kind_of)
         return core_schema.no_info_before_validator_function(known, union)
@@ -108,7 +108,7 @@ def _kinds() -> list[type[Imperfection]]:
 
 
 def _kind_of(value: Any) -> str | None:
-    """The kind that a value is or, by the first of its keys that is a word or nearly, means."""
+    """The kind of an entry, by its first key that is, or resembles, an identifying field."""
     kinds = Imperfection.kinds
     if isinstance(value, Imperfection):
         return type(value).__name__
@@ -120,14 +120,14 @@ def _kind_of(value: Any) -> str | None:
 
 
 def _short(entry: Imperfection, write: Callable[[Imperfection], dict[str, Any]]) -> dict[str, Any]:
-    """An entry as it is written: without defaults, unless all of its fields have them."""
+    """An entry without its default values, unless all of its fields have their defaults."""
     written = write(entry)
     default = {field.name for field in fields(entry) if getattr(entry, field.name) == field.default}
     return {key: text for key, text in written.items() if key not in default} or written
 
 
 def _forms(value: Any) -> list[str]:
-    """The keys that kinds need, those with a key of this value if there are such kinds."""
+    """The required keys of each kind; only of kinds that share a key with this value, if any do."""
     keys = {kind: [field.name for field in fields(kind)] for kind in _kinds()}
     given = {*value} if isinstance(value, Mapping) else set()
     alike = [kind for kind, names in keys.items() if given.intersection(names)]
@@ -139,7 +139,7 @@ def _forms(value: Any) -> list[str]:
 
 
 def _notes(hint: Any) -> Iterator[Any]:
-    """What is noted of a type, or of the first part of a tuple."""
+    """The annotations of a type, and of the first element of a tuple."""
     yield from getattr(hint, "__metadata__", ())
     for part in getattr(hint, "__args__", ())[:1]:
         yield from getattr(part, "__metadata__", ())

@@ -1,7 +1,7 @@
 """Damages that no change of the arm's geometry explains: eccentric gears, sag, backlash.
 
-Each makes a joint stand off by an angle that depends on the arm's posture. They combine with one
-another and with the damages of `recalib.damaged.damage` through its `apply`.
+Each adds an error to a joint angle that depends on the arm's posture. They combine with one another
+and with the damages of `recalib.damaged.damage` through its `apply`.
 """
 
 from dataclasses import dataclass
@@ -13,14 +13,14 @@ from recalib.damaged.imperfections import Joint
 from recalib.files.bounded import Compliance, Direction, Turn
 from recalib.nominal.kinematics import Arm
 
-# N m below which gravity does not decide to which side of its gap a joint falls: rounding of a
-# vertical axis, no load.
+# N m. A smaller torque is a rounding error, as of a vertical axis: it does not move a joint to one
+# side of its gap.
 NO_LOAD = 1e-6
 
 
 @dataclass(frozen=True)
 class Deflection(Damage):
-    """A joint that stands off by an angle of its own angle and of the torque that it holds."""
+    """An error of a joint angle as a function of the angle and of the joint's torque."""
 
     joint: Joint
 
@@ -28,7 +28,7 @@ class Deflection(Damage):
         damaged.deflections.append((joint_index(arm, self.joint), self.deflection))
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
-        """By how much it stands off, (n,) rad, at its angles (n,) [rad] and torques (n,) [N m]."""
+        """Errors (n,) [rad] of the joint at its angles (n,) [rad] and torques (n,) [N m]."""
         raise NotImplementedError
 
 
@@ -37,9 +37,9 @@ class EccentricGear(Deflection, words=("eccentricity",)):
     """An eccentric gear: the joint's error is eccentricity * sin(angle + phase)."""
 
     eccentricity: Turn
-    """Amplitude of its error, which goes as the sine of its angle."""
+    """Amplitude of the error, a sine of the joint's angle."""
     phase: Direction = 0.0
-    """Of that sine."""
+    """Phase of this sine."""
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         return self.eccentricity * np.sin(angles + self.phase)
@@ -47,10 +47,10 @@ class EccentricGear(Deflection, words=("eccentricity",)):
 
 @dataclass(frozen=True)
 class Sag(Deflection, words=("compliance",)):
-    """A compliant joint: it yields to gravity in proportion to its torque."""
+    """A compliant joint: gravity deflects it in proportion to its torque."""
 
     compliance: Compliance
-    """By how much it gives way to gravity."""
+    """Deflection for each unit of torque."""
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         return -self.compliance * torques
@@ -60,13 +60,13 @@ class Sag(Deflection, words=("compliance",)):
 class Backlash(Deflection, words=("gap",)):
     """A gap in a gear: gravity displaces the joint by half the gap.
 
-    Gravity decides rather than the last motion, so that the achieved pose is a function of the
-    command alone: measuring an arm in any order, or in between, changes nothing. A joint without
-    load (a vertical axis) rests in the middle.
+    The side depends on gravity, not on the last motion, so the achieved pose is a function of the
+    command alone: the order and the number of measurements do not matter. A joint without load (a
+    vertical axis) rests in the middle.
     """
 
     gap: Turn
-    """From one side of the gear's gap to the other."""
+    """Full width of the gap."""
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         loaded = np.abs(torques) > NO_LOAD

@@ -1,4 +1,4 @@
-"""Damaged robots as a learner meets them: a pose command goes in, the achieved pose comes out."""
+"""Simulated damaged robots: they take a pose command and return the achieved pose."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -19,16 +19,16 @@ class Plant:
     """Damaged robots behind one nominal controller, one robot for each run of an experiment.
 
     Args:
-        controller: the nominal controller, which knows of no damage.
-        arms: a damaged one for each run, or a single one for all runs, which may be anything that
-            moves, such as the twin of a real one.
-        disturbances: of the executed moves; default: none.
-        generators: their randomness, one for each run.
+        controller: the nominal controller, which does not know the damage.
+        arms: a damaged arm for each run, or a single one for all runs, which may be any
+            `ForwardKinematics`, such as the twin of a real arm.
+        disturbances: random errors of moves and measurements; default: none.
+        generators: a random generator for each run, for the disturbances.
 
     Attributes:
-        moves: how many moves were commanded in each run.
+        moves: the number of moves commanded in each run.
 
-    Raises InvalidSetting: something else than a controller or arms.
+    Raises InvalidSetting for arguments of other types.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class Plant:
 
     @property
     def refused(self) -> np.ndarray | int:
-        """(run,) how many moves the controller refused; 0 before the first."""
+        """The number (run,) of moves that the controller refused; 0 before the first move."""
         return self._refused.copy() if self.moves else 0
 
     @property
@@ -66,13 +66,13 @@ class Plant:
             self._refused = np.zeros(len(commands), dtype=int)
         self.moves += commands.shape[1]
         if self._disturbances is None and self._chain is not None:
-            there = self._home_coordinates, np.ascontiguousarray(commands), self._refused
-            given: tuple[Any, ...] = *self._controller.nominal, *self._chain, *there
-            return Outcome(*kernels.move(*given))
+            moves = self._home_coordinates, np.ascontiguousarray(commands), self._refused
+            arguments: tuple[Any, ...] = *self._controller.nominal, *self._chain, *moves
+            return Outcome(*kernels.move(*arguments))
         targets, disturbances = self._controller.targets(commands), self._disturbances
         if disturbances is not None:
             stops = disturbances.of_joints(self._generators, targets.angles.shape[1:])
-            stops[..., self._controller.robot.arm.slides] = 0  # an angle is no length
+            stops[..., self._controller.robot.arm.slides] = 0  # repeatability is an angle
             targets = targets._replace(angles=targets.angles + stops)
         poses, executed = self.achieve_targets(targets)
         if disturbances is not None:
@@ -83,12 +83,12 @@ class Plant:
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Achieved poses (run, move, 4, 4) and whether each was executed (run, move).
 
-        Undisturbed and not counted.
+        These moves have no random errors and are not counted.
         """
         return self.achieve_targets(self._controller.targets(commands))
 
     def achieve_targets(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
-        """As `achieve`, for commands that the controller has turned into joint angles."""
+        """Like `achieve`, for joint angles instead of pose commands."""
         poses, executed = self._forward(targets.angles), targets.executed
         if not executed.all():
             homes = np.broadcast_to(self._home, poses.shape)
@@ -101,12 +101,12 @@ class Plant:
             return kernels.forward(tuple(self._chain), angles)
         if len(self._arms) > 1:
             pairs = zip(self._arms, angles, strict=True)
-            return np.stack([arm.forward(own) for arm, own in pairs])
+            return np.stack([arm.forward(joints) for arm, joints in pairs])
         poses = self._arms[0].forward(angles.reshape(-1, angles.shape[-1]))
         return poses.reshape(*angles.shape[:-1], 4, 4)
 
 
 def _chain(arms: Sequence[ForwardKinematics]) -> Chain | None:
-    """The arms side by side, if geometry alone determines their poses."""
+    """The arms side by side; None unless geometry alone determines the poses of all of them."""
     chains = [arm.chain for arm in arms if isinstance(arm, DamagedArm) and not arm.deflections]
     return Chain.side_by_side(chains) if len(chains) == len(arms) else None

@@ -1,7 +1,7 @@
-"""Black boxes: corrections of the command, without an arm's model.
+"""Black-box learners: they correct the command, without a model of the arm.
 
-The correction, command minus achieved pose, is a function of the achieved coordinates; asked for a
-desired pose, a learner commands it plus its correction.
+The correction, command minus achieved pose, is a function of the achieved coordinates. To reach a
+desired pose, a learner commands this pose plus its correction.
 """
 
 import math
@@ -17,9 +17,9 @@ from recalib.nominal.robots import Robot
 from recalib.numerics.monomials import monomials
 from recalib.numerics.regression import Process, is_time_to_search
 
-# Deviations of the coefficients by their degree, and of what the polynomial leaves, all in
-# workspace coordinates: wear of some centimetres and degrees, an arm's length away, bends the map
-# ever less from one degree to the next.
+# Prior standard deviations of the coefficients by degree, and of the residual, in workspace
+# coordinates. Errors of some centimetres and degrees, an arm's length away, make smaller
+# coefficients at each higher degree.
 DEVIATIONS = 0.3, 0.1, 0.03
 NOISE = 3e-3
 
@@ -27,13 +27,13 @@ NOISE = 3e-3
 class PolynomialLearner(Observer):
     """Affine and quadratic corrections, by regularised recursive least squares.
 
-    The prior is the intact robot: no correction, each coefficient with a deviation.
+    The prior mean is the intact robot: no correction.
 
     Args:
         degree: 1 for affine, 2 for quadratic.
-        runs: how many independent trainings.
+        runs: number of independent trainings.
 
-    Raises InvalidSetting for any other degree, and for no number of runs.
+    Raises InvalidSetting for any other degree, and for an invalid number of runs.
     """
 
     def __init__(self, degree: int, *, runs: int = 1):
@@ -45,7 +45,7 @@ class PolynomialLearner(Observer):
             range(degree + 1), [math.comb(5 + power, power) for power in range(degree + 1)]
         )
         self._coefficients = np.zeros((runs, len(degrees), 6))
-        # posterior covariance of the coefficients over the variance of the noise
+        # posterior covariance of the coefficients, divided by the variance of the noise
         self._spread = np.tile(np.diag((np.array(DEVIATIONS)[degrees] / NOISE) ** 2), (runs, 1, 1))
 
     def command(self, desired: np.ndarray) -> np.ndarray:
@@ -56,10 +56,10 @@ class PolynomialLearner(Observer):
         for move in range(executed.shape[1]):
             features = monomials(achieved[:, [move]], self._degree)
             reach = features @ self._spread  # (run, 1, F)
-            known = executed[:, [move], None]
-            gain = reach / (1 + reach @ features.swapaxes(1, 2)) * known
+            valid = executed[:, [move], None]
+            gain = reach / (1 + reach @ features.swapaxes(1, 2)) * valid
             residuals = (commands - achieved)[:, [move]] - features @ self._coefficients
-            residuals = np.where(known, residuals, 0)  # a refused move's may be nan
+            residuals = np.where(valid, residuals, 0)  # of a refused move, it may be nan
             self._coefficients += gain.swapaxes(1, 2) @ residuals
             self._spread -= gain.swapaxes(1, 2) @ reach
 
@@ -86,8 +86,8 @@ class PolynomialLearner(Observer):
 class GaussianProcessLearner(Refitting):
     """The correction as a Gaussian process of the achieved pose.
 
-    Hyperparameters are sought anew whenever the number of moves passes a power of two, up to
-    `regression.MOST` of them.
+    Hyperparameters are optimised again each time the number of moves passes a power of two, up to
+    `regression.MOST` moves.
     """
 
     MODEL = "process"

@@ -1,7 +1,7 @@
 """Identification of the arm's geometry, alone or with joint errors and a model of residuals.
 
-To reach a pose, the learner asks the identified arm for the joint angles that it needs there, and
-commands the pose that the nominal kinematics give these angles.
+To reach a pose, the learner solves the identified arm's inverse kinematics, and commands the pose
+that the nominal kinematics have at these joint angles.
 """
 
 import math
@@ -26,16 +26,16 @@ TOLERANCE = 1e-9  # m, rad
 
 
 class GeometricLearner(Refitting):
-    """An error model for each run, identified from joint angles commanded and poses achieved.
+    """An error model for each run, identified from commanded joint angles and achieved poses.
 
-    It knows the nominal kinematics and the controller: a command is sent to have the controller
-    choose joint angles, and what these are follows from the nominal kinematics.
+    The learner knows the nominal kinematics and the controller, so it can compute the joint angles
+    that the controller chooses for a command.
 
     Args:
         controller: the nominal controller.
-        runs: how many independent trainings.
+        runs: number of independent trainings.
 
-    Raises InvalidSetting: something else than a controller.
+    Raises InvalidSetting if `controller` is not a Controller.
     """
 
     MODEL = "calibration"
@@ -47,7 +47,7 @@ class GeometricLearner(Refitting):
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         commands = desired.copy()
-        known = {run: each for run, each in enumerate(self.models) if each is not None}
+        known = {run: model for run, model in enumerate(self.models) if model is not None}
         if known:
             poses = self._controller.robot.workspace.to_poses(desired[[*known]])
             commands[[*known]] = self._controller.commands_for(
@@ -72,7 +72,7 @@ class GeometricLearner(Refitting):
 
     @classmethod
     def identify(cls, arm: Arm, observations: Observations) -> Calibration:
-        """Learn at once from earlier measurements of an arm, given the nominal one."""
+        """The calibration of an arm from earlier measurements; `arm` is nominal."""
         return cls._calibrate(arm, observations, None)
 
     def _restored(self, state: Mapping[str, Any]) -> Calibration:
@@ -82,15 +82,15 @@ class GeometricLearner(Refitting):
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
         """An untrained learner for a number of runs; it has no settings.
 
-        Its controller's singularity margin was accepted when it learned.
+        The singularity margin is not checked again: it was accepted when the learner was trained.
         """
         return cls(Controller(robot, greatest_condition=math.inf), runs=runs)
 
 
 class HybridLearner(GeometricLearner):
-    """A geometric learner with joint errors and a model of residuals; see `calibrate`.
+    """A geometric learner with a model of residuals and joint errors, such as eccentric gears.
 
-    Such as eccentric gears and sag.
+    See `calibrate`.
     """
 
     @staticmethod
@@ -99,17 +99,17 @@ class HybridLearner(GeometricLearner):
 
     @classmethod
     def identify(cls, arm: Arm, observations: Observations) -> Calibration:
-        """As for a geometric learner, with more kinds of joint errors."""
+        """The same for a hybrid learner, with more kinds of joint errors than in training."""
         return calibrate(arm, (OFFSETS, JOINT_ERRORS, JOINT_WAVES), observations)
 
 
 def angles_for(
     calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray
 ) -> np.ndarray:
-    """Joint coordinates (run, n, joints) [rad, m] to send for the arm to reach poses.
+    """Joint coordinates (run, n, joints) [rad, m] that take the calibrated arms to poses.
 
-    By Newton's method, with the Jacobian of each run's arm alone. If nothing reaches the pose,
-    the best angles that were met.
+    Newton's method uses the Jacobian of each run's calibrated arm. If a pose cannot be reached, the
+    best angles of all steps are returned.
 
     Args:
         calibrations: one for each run.

@@ -1,4 +1,4 @@
-"""The learners of the paper: hierarchical maps with Ritter's rules or the improved ones."""
+"""The learners of the paper: hierarchical maps with Ritter's rules or the improved rules."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
@@ -21,23 +21,23 @@ from recalib.nominal.robots import Robot
 class HierarchicalLearner:
     """Hierarchical maps with the learning cycle of section 2, without its first step.
 
-    The centres of the cells stay where they are (section 3). Cells start as the identity, which is
-    right for the intact robot (section 3). Values of theta may start at random, as Ritter's do: new
-    values replace them. Increments of theta never replace their start, nor does anything where the
-    Jacobian is random or zero: both start as the identity.
+    The centres of the cells do not move (section 3). Cells start as the identity, which is exact
+    for the intact robot (section 3). If values of theta are propagated, they may start at random,
+    like Ritter's: later values replace them. Increments never replace the start, and a random or
+    zero Jacobian is never replaced either, so these start as the identity.
 
-    What one run learns depends on no other run.
+    Runs are independent of one another.
 
     Args:
-        rules: which rules to learn by.
-        schedule: how widths and rates fall.
-        runs: how many independent trainings.
+        rules: the learning rules.
+        schedule: the fall of widths and rates.
+        runs: number of independent trainings.
 
     Attributes:
-        nets: where the cells are, the same in all maps.
-        cells: what they hold, once waiting updates are applied: see `recalib.learners.kernels`.
+        nets: the centres of the cells, the same in all maps.
+        cells: their contents, without pending updates: see `recalib.learners.kernels`.
 
-    Raises InvalidSetting where the schedule is for other maps than the rules, or for other runs.
+    Raises InvalidSetting if the schedule has other maps than the rules, or another number of runs.
     """
 
     def __init__(self, rules: Rules, schedule: Schedule, *, runs: int = 1):
@@ -60,7 +60,7 @@ class HierarchicalLearner:
         if rules.initial is not None and not rules.theta_increments:
             theta = np.random.default_rng(rules.initial).uniform(-1, 1, theta.shape)
         jacobian = np.broadcast_to(np.eye(6).ravel(), (*shape, 36))
-        theta, jacobian = (  # repeated, they are in C order: in any other, `_settle` is slower
+        theta, jacobian = (  # `repeat` returns C order, in which `_settle` is fastest
             np.repeat(np.stack(np.split(start, maps, axis=-1))[None], self._runs, axis=0)
             for start in (theta, jacobian)
         )
@@ -82,7 +82,7 @@ class HierarchicalLearner:
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6), by (1).
 
-        Raises InvalidSetting: another shape, NaN.
+        Raises InvalidSetting for another shape or NaN.
         """
         desired = array_of("desired", desired, (self._runs, "n", 6))
         self._settle()
@@ -106,19 +106,19 @@ class HierarchicalLearner:
         sent = (command + correction)[:, None]
         second = execute(sent)
         check_moves(sent, second.achieved, second.executed, last)
-        held, falls = (winners, theta, jacobian, correction), (self._widths, self._rate)
-        kernels.learn(*cells, *held, *first, *second, self._metric, *falls, fraction)
+        response, falls = (winners, theta, jacobian, correction), (self._widths, self._rate)
+        kernels.learn(*cells, *response, *first, *second, self._metric, *falls, fraction)
         self._waiting += 1
 
     def _settle(self) -> None:
-        """Apply the updates that wait, run by run: so the cache holds what a run needs."""
+        """Apply the pending updates, run by run, so that a run's data fit into the cache."""
         waiting, self._waiting, cells = slice(self._waiting), 0, self.cells
         if not waiting.stop:
             return
-        for run, each in np.ndindex(cells.theta.shape[:2]):
-            here, rates = (run, each, waiting), cells.rates[run, waiting]
+        for run, map_ in np.ndindex(cells.theta.shape[:2]):
+            here, rates = (run, map_, waiting), cells.rates[run, waiting]
             g_k, g_kl = cells.g_k[here], cells.g_kl[here]
-            theta, jacobian = cells.theta[run, each], cells.jacobian[run, each]
+            theta, jacobian = cells.theta[run, map_], cells.jacobian[run, map_]
             star = cells.theta_star[here]
             _apply(theta, rates[:, THETA], g_k, g_kl, star, self._increments[THETA])
             star = cells.jacobian_star[here]
@@ -149,37 +149,37 @@ class HierarchicalLearner:
         return [
             {
                 name: {"theta": theta[run].copy(), "jacobian": jacobian[run].copy()}
-                for name, theta, jacobian in self._held()
+                for name, theta, jacobian in self._by_map()
             }
             for run in range(self._runs)
         ]
 
     def restore(self, states: Sequence[State]) -> None:
         self._settle()
-        for name, theta, jacobian in self._held():
+        for name, theta, jacobian in self._by_map():
             theta[:] = [state[name]["theta"] for state in states]
             jacobian[:] = [state[name]["jacobian"] for state in states]
 
-    def _held(self) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    def _by_map(self) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
         """The name of each map, its theta (run, K, L, o) and its Jacobians (run, K, L, o, 6)."""
         cells = self.cells
-        for each, name in enumerate(self.rules.maps):
-            jacobian = cells.jacobian[:, each]
-            yield name, cells.theta[:, each], jacobian.reshape(*jacobian.shape[:-1], -1, 6)
+        for map_, name in enumerate(self.rules.maps):
+            jacobian = cells.jacobian[:, map_]
+            yield name, cells.theta[:, map_], jacobian.reshape(*jacobian.shape[:-1], -1, 6)
 
 
 def _apply(
-    held: np.ndarray,
+    values: np.ndarray,
     rate: np.ndarray,
     g_k: np.ndarray,
     g_kl: np.ndarray,
     star: np.ndarray,
     increments: bool,
 ) -> None:
-    """Move cells (K, L, n) by updates, (7) and (9), or draw them towards them, (4) and (5)."""
+    """Add increments to cells (K, L, n), (7) and (9), or draw them to values, (4) and (5)."""
     if increments:
         weighted = rate[:, None] * g_k
-        held += (weighted.T @ kernels.spread_over(g_kl, star)).reshape(held.shape)
+        values += (weighted.T @ kernels.spread_over(g_kl, star)).reshape(values.shape)
     else:
         weights, remaining = kernels.lasting(rate, g_k, g_kl)
-        kernels.draw(held, remaining, weights.T @ star)
+        kernels.draw(values, remaining, weights.T @ star)

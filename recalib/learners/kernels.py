@@ -1,11 +1,11 @@
 """Compiled loops of learners whose cells hold theta and Jacobians: equations (1) to (9).
 
-Each goes over all runs in one call. They stand in one file, since Numba's cache notices changes of
-the file of the function that is called, but not of those that it calls.
+Each function handles all runs in one call. All are in one file because Numba's cache checks only
+the file of the called function for changes, not the files of functions that it calls in turn.
 
-An iteration updates every cell, but reads one of each map. So updates wait, and
-`recalib.learners.hierarchical` applies `WAITING` of them at once, by one product of matrices. What
-is read includes them.
+An iteration updates every cell, but reads only one cell of each map. So updates are queued, and
+`recalib.learners.hierarchical` applies `WAITING` of them at once, as one matrix product. A cell
+that is read meanwhile gets its pending updates first.
 """
 
 from typing import NamedTuple, TypeVar
@@ -14,10 +14,10 @@ import numpy as np
 
 from recalib.numerics.compiled import compiled, inner
 
-WAITING = 32  # updates, at most: more make reading a cell slower than they make updates faster
-THETA, JACOBIAN = 0, 1  # what cells hold, and the places of their numbers in pairs
-# Below this length of a move, in workspace coordinates, (3) and (8) would divide rounding errors by
-# rounding errors.
+WAITING = 32  # pending updates, at most: with more, slower reading costs more than is saved
+THETA, JACOBIAN = 0, 1  # indices into pairs of settings or numbers
+# Workspace coordinates. For a shorter move, (3) and (8) would divide rounding errors by rounding
+# errors.
 SHORTEST_MOVE = 1e-6
 
 
@@ -25,20 +25,20 @@ Number = TypeVar("Number", float, np.ndarray)
 
 
 class Cells(NamedTuple):
-    """The cells of all maps in each run, and the updates that wait.
+    """The cells of all maps in each run, and the pending updates.
 
-    A map has K cells in its supernet, and L in each of its subnets; it computes o coordinates of
-    the command, those that follow the coordinates of the map before it.
+    A map has K cells in its supernet, and L cells in each subnet. It computes o coordinates of the
+    command; map 0 computes the first o, map 1 the next o.
 
     Attributes:
         w_k (K, 3), w_kl (L, 3): centres.
         squares_k (K, K), squares_kl (L, L): squared distances between them, in units of widths.
         theta: (run, map, K, L, o) the command at each centre.
-        jacobian: (run, map, K, L, 6 o) how it changes with the desired pose about the centre.
-        g_k (run, map, WAITING, K), g_kl (run, map, WAITING, L): neighbourhoods of waiting updates.
-        theta_star (run, map, WAITING, o), jacobian_star (run, map, WAITING, 6 o): what these
-            propagate.
-        rates: (run, WAITING, 2) their learning rates, of theta and of Jacobians.
+        jacobian: (run, map, K, L, 6 o) its derivative with respect to the desired pose.
+        g_k (run, map, WAITING, K), g_kl (run, map, WAITING, L): neighbourhoods of pending updates.
+        theta_star (run, map, WAITING, o), jacobian_star (run, map, WAITING, 6 o): values or
+            increments that pending updates propagate.
+        rates: (run, WAITING, 2) learning rates of pending updates, for theta and for Jacobians.
     """
 
     w_k: np.ndarray
@@ -56,7 +56,7 @@ class Cells(NamedTuple):
 
 @compiled
 def fall(start: Number, end: Number, fraction: Number | float, power: float) -> Number:
-    """What falls from start to end so that its power is linear in time; see `schedules`."""
+    """The value of a quantity whose power falls linearly from start to end; see `schedules`."""
     if power == 0:
         return start * (end / start) ** fraction
     if power == 1:
@@ -90,7 +90,7 @@ def nearest_of(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
 def commands(plain: tuple[np.ndarray, ...], desired: np.ndarray) -> np.ndarray:
     """Pose commands (run, pose, 6) for the desired poses (run, pose, 6), by (1).
 
-    No update may wait.
+    There must be no pending updates.
     """
     cells = Cells(*plain)
     found, outputs = np.empty(desired.shape), cells.theta.shape[-1]
@@ -99,11 +99,11 @@ def commands(plain: tuple[np.ndarray, ...], desired: np.ndarray) -> np.ndarray:
             u = desired[run, pose]
             k, l = nearest(u[:3], cells.w_k), nearest(u[3:], cells.w_kl)
             for row in range(6):
-                each, output = row // outputs, row % outputs
-                total = cells.theta[run, each, k, l, output]
+                map_, output = row // outputs, row % outputs
+                total = cells.theta[run, map_, k, l, output]
                 for column in range(6):
                     centre = cells.w_k[k, column] if column < 3 else cells.w_kl[l, column - 3]
-                    slope = cells.jacobian[run, each, k, l, 6 * output + column]
+                    slope = cells.jacobian[run, map_, k, l, 6 * output + column]
                     total += slope * (u[column] - centre)
                 found[run, pose, row] = total
     return found
@@ -116,16 +116,16 @@ def respond(
     increments: tuple[bool, bool],
     desired: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """The first command of an iteration, by (1), and the cells that it came from.
+    """The first command of an iteration, by (1), and the winning cells that it comes from.
 
     Args:
         plain: `Cells` as a plain tuple.
-        waiting: how many updates wait.
-        increments: whether increments of theta and of Jacobians are propagated, or their values.
+        waiting: number of pending updates.
+        increments: whether to propagate increments (or values) of theta, and of Jacobians.
         desired: (run, 6) poses.
 
-    Returns the commands (run, 6), the winning cells (run, 2), and what they hold: theta (run, 6)
-    and Jacobians (run, 6, 6).
+    Returns the commands (run, 6), the winning cells (run, 2), and their theta (run, 6) and
+    Jacobians (run, 6, 6).
     """
     cells = Cells(*plain)
     runs, outputs = len(desired), cells.theta.shape[-1]
@@ -136,23 +136,23 @@ def respond(
         k, l = nearest(u[:3], cells.w_k), nearest(u[3:], cells.w_kl)
         winners[run, 0], winners[run, 1] = k, l
         for row in range(6):
-            each, output = row // outputs, row % outputs
-            theta[run, row] = cells.theta[run, each, k, l, output]
+            map_, output = row // outputs, row % outputs
+            theta[run, row] = cells.theta[run, map_, k, l, output]
             for column in range(6):
-                jacobian[run, row, column] = cells.jacobian[run, each, k, l, 6 * output + column]
-        for each in range(6 // outputs):
-            first = each * outputs
+                jacobian[run, row, column] = cells.jacobian[run, map_, k, l, 6 * output + column]
+        for map_ in range(6 // outputs):
+            first = map_ * outputs
             for update in range(waiting):
-                neighbourhood = cells.g_k[run, each, update, k] * cells.g_kl[run, each, update, l]
+                neighbourhood = cells.g_k[run, map_, update, k] * cells.g_kl[run, map_, update, l]
                 rate_theta = cells.rates[run, update, THETA] * neighbourhood
                 rate_jacobian = cells.rates[run, update, JACOBIAN] * neighbourhood
                 for output in range(outputs):
-                    star = cells.theta_star[run, each, update, output]
+                    star = cells.theta_star[run, map_, update, output]
                     if not increments[THETA]:
                         star -= theta[run, first + output]
                     theta[run, first + output] += rate_theta * star
                     for column in range(6):
-                        star = cells.jacobian_star[run, each, update, 6 * output + column]
+                        star = cells.jacobian_star[run, map_, update, 6 * output + column]
                         if not increments[JACOBIAN]:
                             star -= jacobian[run, first + output, column]
                         jacobian[run, first + output, column] += rate_jacobian * star
@@ -167,10 +167,10 @@ def respond(
 
 @compiled
 def corrections(jacobian: np.ndarray, desired: np.ndarray, achieved: np.ndarray) -> np.ndarray:
-    """A_kl (u - u') (run, 6): the second movement of an iteration, and the increment of (6).
+    """A_kl (u - u') (run, 6): the second movement of an iteration, and the increment in (6).
 
     Args:
-        achieved: (run, 1, 6) the pose u' of the first.
+        achieved: (run, 1, 6) the pose u' after the first movement.
     """
     found = np.zeros(desired.shape)
     for run in range(len(desired)):
@@ -200,21 +200,21 @@ def learn(
     rate: tuple[np.ndarray, np.ndarray, float],
     fraction: float,
 ) -> None:
-    """What an iteration teaches, as one more update of each map that waits.
+    """Queue one update of each map from the outcome of an iteration.
 
-    By (2) and (3), or by (6) and (8); nothing of theta without the first move, or of Jacobians
-    without both.
+    Updates follow (2) and (3), or (6) and (8). If the first move was refused, theta does not
+    change; if either move was refused, Jacobians do not change.
 
     Args:
-        plain, waiting, increments: as of `respond`.
+        plain, waiting, increments: see `respond`.
         winners, theta, jacobian: as `respond` returned them.
         correction: (run, 6) A_kl (u - u').
         first, second: (run, 1, 6) the achieved poses u' and u''.
         first_executed, second_executed: (run, 1) whether these moves were executed.
         metric: (6,) squared units of the norm in (3) and (8).
-        widths: how the widths of g_k and g_kl fall: from and to (run, map, 2), by which power.
-        rate: how the learning rate c' falls: from (run,) to (run,), by which power.
-        fraction: of the training that is done.
+        widths: initial and final widths (run, map, 2) of g_k and g_kl, and the power of their fall.
+        rate: initial and final learning rates c' (run,), and the power of their fall.
+        fraction: part of the training that is done.
     """
     cells = Cells(*plain)
     moved, direction, outputs = np.empty(6), np.empty(6), cells.theta.shape[-1]
@@ -231,13 +231,13 @@ def learn(
         cells.rates[run, waiting, THETA] = c if first_executed[run, 0] else 0.0
         cells.rates[run, waiting, JACOBIAN] = c if both and far else 0.0
         k, l = winners[run]
-        for each in range(6 // outputs):
-            width = fall(widths[0][run, each, 0], widths[1][run, each, 0], fraction, widths[2])
-            _neighbours(cells.squares_k[k], width, cells.g_k[run, each, waiting])
-            width = fall(widths[0][run, each, 1], widths[1][run, each, 1], fraction, widths[2])
-            _neighbours(cells.squares_kl[l], width, cells.g_kl[run, each, waiting])
+        for map_ in range(6 // outputs):
+            width = fall(widths[0][run, map_, 0], widths[1][run, map_, 0], fraction, widths[2])
+            _neighbours(cells.squares_k[k], width, cells.g_k[run, map_, waiting])
+            width = fall(widths[0][run, map_, 1], widths[1][run, map_, 1], fraction, widths[2])
+            _neighbours(cells.squares_kl[l], width, cells.g_kl[run, map_, waiting])
         for row in range(6):
-            each, output = row // outputs, row % outputs
+            map_, output = row // outputs, row % outputs
             error = correction[run, row]
             for column in range(6):
                 error -= jacobian[run, row, column] * moved[column]
@@ -245,17 +245,17 @@ def learn(
             star = correction[run, row]  # (6)
             if not increments[THETA]:
                 star += theta[run, row]  # (2)
-            cells.theta_star[run, each, waiting, output] = star
+            cells.theta_star[run, map_, waiting, output] = star
             for column in range(6):
                 star = error * direction[column]  # (8)
                 if not increments[JACOBIAN]:
                     star += jacobian[run, row, column]  # (3)
-                cells.jacobian_star[run, each, waiting, 6 * output + column] = star
+                cells.jacobian_star[run, map_, waiting, 6 * output + column] = star
 
 
 @inner
 def _neighbours(squares: np.ndarray, width: float, weights: np.ndarray) -> None:
-    """Write the Gaussian neighbourhood (cells,) of a winner, by squared distances to it."""
+    """Write the Gaussian neighbourhood (cells,) of a winner, from squared distances to it."""
     for cell in range(len(squares)):
         weights[cell] = np.exp(-squares[cell] / (2 * width**2))
 
@@ -274,10 +274,10 @@ def spread_over(g_kl: np.ndarray, star: np.ndarray) -> np.ndarray:
 
 @compiled
 def lasting(rate: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Weights (update, K L) that updates towards values keep under the later ones.
+    """Final weights (update, K L) of updates towards values, after all later updates.
 
-    Each later update leaves 1 - weight of the value before it. Also returns the weights (K L) that
-    the values before all updates keep.
+    Each later update multiplies earlier weights by 1 - its own weight. Also returns the final
+    weights (K L) of the values before all updates.
     """
     updates, supernet, subnet = len(rate), g_k.shape[1], g_kl.shape[1]
     weights, remaining = np.empty((updates, supernet * subnet)), np.ones(supernet * subnet)
@@ -291,9 +291,9 @@ def lasting(rate: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray) -> tuple[np.nda
 
 
 @compiled
-def draw(held: np.ndarray, remaining: np.ndarray, drawn: np.ndarray) -> None:
-    """Keep what remains (K L) of what cells held (K, L, n), and add to it (K L, n)."""
-    cells = held.reshape(drawn.shape)
+def draw(values: np.ndarray, remaining: np.ndarray, drawn: np.ndarray) -> None:
+    """Multiply cells (K, L, n) by their remaining weights (K L), then add `drawn` (K L, n)."""
+    cells = values.reshape(drawn.shape)
     for cell in range(drawn.shape[0]):
         rest = remaining[cell]
         for number in range(drawn.shape[1]):
@@ -304,11 +304,11 @@ def draw(held: np.ndarray, remaining: np.ndarray, drawn: np.ndarray) -> None:
 def propagate(
     theta: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray, star: np.ndarray, increments: bool
 ) -> None:
-    """Move theta (run, K, L, o) by increments, (7), or draw it towards values, (4).
+    """Add increments to theta (run, K, L, o), (7), or draw it towards values, (4).
 
     Args:
         g_k (run, K), g_kl (run, L): neighbourhoods, one of them times the learning rate.
-        star: (run, o) what is propagated.
+        star: (run, o) the increment or value to propagate.
     """
     for run, k, l in np.ndindex(theta.shape[:3]):
         weight = g_k[run, k] * g_kl[run, l]

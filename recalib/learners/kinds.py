@@ -1,6 +1,6 @@
-"""The kinds of today's learners and of the paper's. A new kind is named here, and nowhere else.
+"""The table of kinds of learners. Name a new kind here, and nowhere else.
 
-Files of trained learners, the study's comparisons and its real arm follow from this table.
+Files of trained learners, the study's comparisons and its real arm all use this table.
 """
 
 from collections.abc import Mapping
@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from recalib.errors import UnknownName, check_name
 
-if TYPE_CHECKING:  # a look at the table does not import what learners need
+if TYPE_CHECKING:  # reading the table must not import the learners' dependencies
     from recalib.loop.interfaces import Savable
 
-# What learners need to know.
+# The information that learners need.
 POSES, KINEMATICS = "measured poses", "measured poses, nominal kinematics"
 
 
@@ -20,11 +20,10 @@ class Kind(NamedTuple):
     """A kind of learner that can be saved to files.
 
     Attributes:
-        home: where its class is.
-        peers: settings with which it is compared with the paper's learners, by the name of each
-            comparison.
-        needs: what it needs to know. With the kinematics, its class can `identify`, too: see
-            `GeometricLearner.identify`.
+        home: the module and name of its class.
+        peers: settings for comparisons with the paper's learners, by the name of each comparison.
+        needs: the information that it needs. Classes that know the kinematics also have the method
+            `identify`: see `GeometricLearner.identify`.
     """
 
     home: str

@@ -1,4 +1,4 @@
-"""Files of trained learners: enough to go on or to correct commands elsewhere, on the same robot.
+"""Files of trained learners, to continue training or to correct commands of the same robot.
 
 A file is an archive (`recalib.files.archives`). Its header has the format's version, the kind of
 learner and its settings, and the robot. All other arrays are named RUN/GROUP/NAME.
@@ -18,17 +18,16 @@ from recalib.nominal.robots import Robot
 
 FORMAT, VERSION = "recalib learner", 6
 WRITER = "recalib.save"
-ALIKE = 1e-9  # m, rad: numbers of two robots that differ by less are the same
-PROBES = 8  # joint angles at which the kinematics of two robots are compared
+ALIKE = 1e-9  # m, rad: smaller differences between two robots are ignored
+PROBES = 8  # postures at which the kinematics of two robots are compared
 
 Path = str | PathLike[str]
 
 
 def save(path: Path, learner: Savable, robot: Robot) -> None:
-    """Write what a learner has learned on a robot.
+    """Save a learner that was trained on a robot.
 
-    Raises UnknownName (a learner of no known kind), and InvalidSetting (something else than a
-    robot).
+    Raises UnknownName (a learner of unknown kind) and InvalidSetting (`robot` is not a Robot).
     """
     check_kind("robot", robot, Robot)
     header = {
@@ -43,10 +42,10 @@ def save(path: Path, learner: Savable, robot: Robot) -> None:
 
 
 def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
-    """The learner that `save` wrote, for the same robot: of one run, or by default of all.
+    """The learner that `save` wrote, for the same robot, with one run or (default) all runs.
 
-    Raises InvalidFile (not whole, or no such file), OtherRobot, and InvalidSetting (no such run, or
-    something else than a robot).
+    Raises InvalidFile (a damaged or missing file), OtherRobot, and InvalidSetting (no such run, or
+    `robot` is not a Robot).
     """
     check_kind("robot", robot, Robot)
     header, states = read(path)
@@ -70,9 +69,9 @@ def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
 
 
 def identity(robot: Robot) -> dict[str, Any]:
-    """The facts by which a robot is recognised, in the types of JSON: its motion, not its name."""
+    """The properties that identify a robot, in the types of JSON: its motion, not its name."""
     joints = np.arange(len(robot.joints)) + 1
-    angles = np.sin(np.outer(np.arange(PROBES) + 1, joints))  # rad, a mixture of all joints
+    angles = np.sin(np.outer(np.arange(PROBES) + 1, joints))  # rad, different for each joint
     numbers = {
         "kinematics": robot.arm.forward(angles),
         "home": robot.home,
@@ -83,7 +82,7 @@ def identity(robot: Robot) -> dict[str, Any]:
 
 
 def differences(learned: Mapping[str, Any], here: Mapping[str, Any]) -> list[str]:
-    """What differs between the identities of two robots."""
+    """The differences between the identities of two robots, in words."""
     found = [
         f"its {name} {'are' if name == 'joints' else 'is'} {learned[name]}, not {here[name]}"
         for name in ("joints", "tool")
@@ -99,7 +98,7 @@ def differences(learned: Mapping[str, Any], here: Mapping[str, Any]) -> list[str
 
 
 def read(path: Path) -> tuple[dict[str, Any], list[State]]:
-    """Header and runs of a file. Raises InvalidFile: not whole, or not of this format."""
+    """Header and runs of a file. Raises InvalidFile if it is damaged or of another format."""
     header, groups = read_archive(path, (FORMAT, VERSION), WRITER)
     with refused(path, WRITER):
         return header, [groups[str(run)] for run in range(len(groups))]

@@ -1,6 +1,6 @@
-"""Where the cells of a hierarchical map are: a supernet of positions, and subnets of orientations.
+"""The cells of a hierarchical map: a supernet of positions, and subnets of orientations.
 
-Sections 2 and 3 of the paper. Everything is in workspace coordinates.
+See sections 2 and 3 of the paper. Everything is in workspace coordinates.
 """
 
 from collections.abc import Sequence
@@ -11,8 +11,8 @@ import numpy as np
 from recalib.learners import kernels
 from recalib.nominal.poses import ORIENTATION, POSITION
 
-# "A regular grid covering" the workspace (section 3): along a coordinate of [-1, 1], the middles of
-# n equal boxes, which no other centres beat in quantisation error; or n from face to face.
+# "A regular grid covering" the workspace (section 3): along each coordinate in [-1, 1], the middles
+# of n equal boxes, which minimise the quantisation error, or n points from face to face.
 CENTRES = {
     "boxes": lambda n: (2 * np.arange(n) + 1) / n - 1,
     "faces": lambda n: np.linspace(-1, 1, n) if n > 1 else np.zeros(1),
@@ -20,10 +20,10 @@ CENTRES = {
 
 
 def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
-    """Centres (cells, d) of cells in [-1, 1]^d, so many along each coordinate: shape (d,).
+    """Centres (cells, d) of cells in [-1, 1]^d; `shape` (d,) is the number along each coordinate.
 
     Args:
-        centres: which, of `CENTRES`.
+        centres: one of `CENTRES`.
     """
     return np.array(list(product(*map(CENTRES[centres], shape))))
 
@@ -39,12 +39,12 @@ class Nets:
 
     Args:
         supernet, subnet: cells along each position and each orientation coordinate.
-        centres: where, of `CENTRES`.
+        centres: one of `CENTRES`.
         units: six factors that turn workspace coordinates into the units of widths.
 
     Attributes:
         w_k (K, 3), w_kl (L, 3): centres of the supernet's cells, and of the cells of each subnet.
-        centres: (K, L, 6) both, as poses.
+        centres: (K, L, 6) the centres of both, as poses.
         squares_k (K, K), squares_kl (L, L): squared distances between centres, in units of widths.
     """
 
@@ -55,14 +55,14 @@ class Nets:
         k, l = np.indices((len(self.w_k), len(self.w_kl)))
         self.centres = np.concatenate([self.w_k[k], self.w_kl[l]], axis=-1)
         self.squares_k, self.squares_kl = (
-            (((w[:, None] - w[None]) * units[own]) ** 2).sum(axis=-1)
-            for w, own in ((self.w_k, POSITION), (self.w_kl, ORIENTATION))
+            (((w[:, None] - w[None]) * units[part]) ** 2).sum(axis=-1)
+            for w, part in ((self.w_k, POSITION), (self.w_kl, ORIENTATION))
         )
 
     def winner(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The winning cells (k, l), each (...), for poses u (..., 6).
 
-        First the supernet's, then its subnet's.
+        k is a cell of the supernet, l a cell of its subnet.
         """
         return nearest(u[..., POSITION], self.w_k), nearest(u[..., ORIENTATION], self.w_kl)
 
@@ -71,7 +71,7 @@ class Nets:
     ) -> tuple[np.ndarray, np.ndarray]:
         """g_k (run, K) and g_kl (run, L) about the winning cells (k, l), each (run,).
 
-        Gaussians of these widths, each (run,), in their units.
+        Both are Gaussians. Their widths, each (run,), are in units of widths.
         """
         return (
             np.exp(-self.squares_k[k] / (2 * np.square(width_k)[:, None])),

@@ -1,4 +1,4 @@
-"""What today's learners share: one move an iteration, and learning from every measured move."""
+"""Base classes of learners that make one move an iteration and learn from every measured move."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
@@ -11,69 +11,69 @@ from recalib.loop.interfaces import Execute, State
 from recalib.loop.moves import Moves, check_moves
 from recalib.nominal.robots import Robot
 
-PLACES = 3  # binary digits of the numbers of moves after which to learn anew
+PLACES = 3  # leading binary digits of the number of moves; refit when they change
 
 
 class Observer(ABC):
-    """A learner that learns from any move, whoever chose it."""
+    """A learner that can learn from any move, also from moves that it did not choose."""
 
-    _last: Moves | None = None  # the move with which the next is compared
+    _last: Moves | None = None  # the previous move, for checks of the next
 
     @abstractmethod
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
 
     def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Learn from moves; nothing is learned from those that were refused.
+        """Learn from moves, except from refused ones.
 
         Args:
             commands: (run, move, 6) the pose commands that were sent.
             achieved: (run, move, 6) the poses that were reached.
             executed: (run, move) whether the command was carried out.
 
-        Raises BadMeasurement if the achieved pose is not a number, far off, or the same for all
-        commands; then nothing is learned.
+        Raises BadMeasurement, and learns nothing, if the achieved pose is not a number, far off, or
+        the same for all commands.
         """
         self._last = check_moves(commands, achieved, executed, self._last)
         self._update(commands, achieved, executed)
 
     @abstractmethod
     def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Learn from moves that are sound; see `observe`."""
+        """Learn from moves that have passed the checks; see `observe`."""
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
-        """One move to the desired poses (run, 6)."""
+        """Make one move to the desired poses (run, 6), and learn from it."""
         commands = self.command(desired[:, None])
         outcome = execute(commands)
         self.observe(commands, outcome.achieved, outcome.executed)
 
 
 def is_due(before: int, moves: int) -> bool:
-    """Whether to learn anew from everything, now that there are so many moves and not `before`.
+    """Whether to refit a model to all moves, after their number has risen from `before` to `moves`.
 
-    That is after every move up to 8, every second up to 16, every fourth up to 32, and so on:
-    a model lacks at most a fifth of the known moves, and hundreds of moves take little more time
-    than dozens.
+    A refit is due after every move up to 8, every second up to 16, every fourth up to 32, and so
+    on. So at most a fifth of the moves are not yet in a model, and hundreds of moves take little
+    more time than dozens.
     """
     stride = 2 ** max(moves.bit_length() - PLACES, 0)
     return moves // stride > before // stride
 
 
 class Refitting(Observer):
-    """A learner with a model for each run, fitted anew now and then to all of the run's moves.
+    """A learner with a model for each run, refitted to all moves of the run from time to time.
 
     Args:
-        runs: how many independent trainings.
-        sent: how many numbers of a command are kept.
+        runs: number of independent trainings.
+        sent: length of the stored vector of a command.
 
     Attributes:
-        models: of each run; None where nothing has been learned.
-        moves: how many there were, refused ones included.
+        models: one for each run; None before anything has been learned.
+        moves: the number of moves in each run, including refused ones.
 
-    Raises InvalidSetting: no number of runs.
+    Raises InvalidSetting for an invalid number of runs.
     """
 
-    MODEL: ClassVar[str]  # what a model is called in files
+    MODEL: ClassVar[str]  # key of the model in files
 
     def __init__(self, *, runs: int = 1, sent: int = 6):
         check_runs(runs)
@@ -94,8 +94,8 @@ class Refitting(Observer):
         for name, values in zip(self._moves, new, strict=True):
             self._moves[name] = np.concatenate([self._moves[name], values], axis=1)
         if is_due(before, self.moves):
-            for run, (last, kept) in enumerate(zip(self.models, self._by_run(), strict=True)):
-                sent, achieved, executed = kept.values()
+            for run, (last, moves) in enumerate(zip(self.models, self._by_run(), strict=True)):
+                sent, achieved, executed = moves.values()
                 if executed.any():
                     self.models[run] = self._fit(sent[executed], achieved[executed], last, before)
 
@@ -104,7 +104,7 @@ class Refitting(Observer):
         return [{name: values[run] for name, values in self._moves.items()} for run in runs]
 
     def _sent(self, commands: np.ndarray) -> np.ndarray:
-        """What is kept (run, move, sent) of pose commands (run, move, 6)."""
+        """The vectors (run, move, sent) to store for pose commands (run, move, 6)."""
         return commands
 
     @abstractmethod
@@ -112,14 +112,14 @@ class Refitting(Observer):
         """The model of a run.
 
         Args:
-            sent, achieved: (n, sent) and (n, 6) of its executed moves.
-            last: the model so far, if there is one.
-            before: how many moves it may have been fitted to.
+            sent, achieved: (n, sent) and (n, 6) the executed moves of the run.
+            last: the previous model; None if there is none.
+            before: the number of moves before the latest ones.
         """
 
     @abstractmethod
     def _restored(self, state: Mapping[str, Any]) -> Any:
-        """The model with this state."""
+        """The model that had this state."""
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
@@ -127,11 +127,11 @@ class Refitting(Observer):
         return cls(runs=runs)
 
     def settings(self) -> dict[str, Any]:
-        """It has none."""
+        """No settings."""
         return {}
 
     def state(self) -> list[State]:
-        """For each run its moves and, once there is one, its model."""
+        """For each run, its moves and its model, if there is one yet."""
         return [
             {"moves": moves, self.MODEL: model and model.state()}
             for moves, model in zip(self._by_run(), self.models, strict=True)

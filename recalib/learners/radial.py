@@ -1,7 +1,7 @@
-"""A second kind of local unit: normalised Gaussian radial units, to which the paper's rules apply.
+"""The paper's rules for another kind of local unit: normalised Gaussian radial units.
 
 "Other neural network algorithms based on local units can also benefit from these improvements"
-(section 8). A unit holds a command and no Jacobian: it is the smallest kind.
+(section 8). A unit holds a command and no Jacobian: this is the simplest kind.
 """
 
 import numpy as np
@@ -17,35 +17,35 @@ from recalib.loop.interfaces import Execute
 from recalib.loop.moves import check_moves
 from recalib.nominal.poses import ORIENTATION, POSITION
 
-SPACING = 2 / 3  # of three cells along a coordinate of the workspace, which is 2 wide
+SPACING = 2 / 3  # the distance of cells, if three lie along a coordinate of the workspace, 2 wide
 
 
 class RadialLearner:
     """Units i with commands theta_i at centres w_i; the output blends their corrections.
 
-    To a desired pose u they command
+    For a desired pose u the command is
 
         u + sum_i phi_i(u) (theta_i - w_i) / sum_i phi_i(u),
         phi_i(u) = exp(-|u - w_i|^2 / (2 s^2)),
 
-    the identity before learning. An iteration is one move, to u'. Its error is the increment of
-    (6) with the identity for a Jacobian, e = u - u'. With the neighbourhoods g of section 2 about
-    the winner, the unit whose centre is nearest to u, every unit learns by (7) or by (4),
+    which is u before learning. An iteration is one move, which achieves u'. Its error e = u - u'
+    is the increment in (6), with the identity as Jacobian. The winner is the unit whose centre is
+    nearest to u. With the neighbourhoods g of section 2 about it, every unit learns by (7) or (4),
 
         theta_i += c' g_i e    or    theta_i += c' g_i (theta_winner + e - theta_i).
 
     Args:
-        rules: of the paper's: sizes and centres of the nets, whose pairs of cells (k, l) are the
-            units; one map or two (section 4), increments of theta or values (section 5), and how
-            widths and rates fall (section 6). Rules for Jacobians have no effect here.
-        schedule: how widths and rates fall.
-        field: s, the width of the receptive fields, in workspace coordinates; it stays.
-        runs: how many independent trainings.
+        rules: the paper's rules: sizes and centres of the nets, whose pairs of cells (k, l) are the
+            units; one map or two (section 4); increments of theta or values (section 5); and the
+            law of widths and rates (section 6). Rules for Jacobians have no effect here.
+        schedule: the fall of widths and rates.
+        field: s, the constant width of the receptive fields, in workspace coordinates.
+        runs: number of independent trainings.
 
     Attributes:
         theta: (run, K, L, 6) commands that the units hold.
 
-    Raises InvalidSetting: as `HierarchicalLearner`; a field that is not above 0.
+    Raises InvalidSetting like `HierarchicalLearner`, and if the field is not above 0.
     """
 
     def __init__(self, rules: Rules, schedule: Schedule, field: float = SPACING, *, runs: int = 1):
@@ -61,7 +61,7 @@ class RadialLearner:
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
-        # phi is a product of one Gaussian in each net, and so is its sum over all units
+        # phi is a product of one Gaussian in each net, so its sum over all units factors likewise
         phi_k = self._shares(desired[..., POSITION], self.nets.w_k)
         phi_kl = self._shares(desired[..., ORIENTATION], self.nets.w_kl)
         corrections = self.theta - self.nets.centres  # (run, K, L, 6)
@@ -74,8 +74,8 @@ class RadialLearner:
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """Make one move and update all units; see `Learner.learn`.
 
-        Nothing is learned from a refused move. Raises BadMeasurement if the achieved pose
-        is not a number, or far off.
+        A refused move changes nothing. Raises BadMeasurement if the achieved pose is not a number,
+        or far off.
         """
         command = self.command(desired[:, None])
         outcome = execute(command)
@@ -86,8 +86,8 @@ class RadialLearner:
         k, l = self.nets.winner(desired)
         winner = self.theta[np.arange(len(k)), k, l]
         widths = fall(*self._widths, fraction, self.rules.width_power)
-        for each, outputs in enumerate(self.rules.maps.values()):
-            g_k, g_kl = self.nets.neighbourhood(k, l, *widths[:, each].T)
+        for map_, outputs in enumerate(self.rules.maps.values()):
+            g_k, g_kl = self.nets.neighbourhood(k, l, *widths[:, map_].T)
             star = increment[:, outputs]
             if not self.rules.theta_increments:
                 star = winner[:, outputs] + star
@@ -95,6 +95,6 @@ class RadialLearner:
             kernels.propagate(theta, rate[:, None] * g_k, g_kl, star, self.rules.theta_increments)
 
     def _shares(self, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
-        """phi over its sum (run, pose, cell), in one net, for points (run, pose, 3)."""
+        """phi divided by its sum (run, pose, cell), in one net, for points (run, pose, 3)."""
         squares = np.square(points[..., None, :] - centres).sum(axis=-1)
         return softmax(-squares / (2 * self._field**2), axis=-1)

@@ -1,7 +1,7 @@
-"""What distinguishes the paper's learners from one another: switches, sizes, conventions.
+"""The options of the paper's learners: switches, sizes, conventions.
 
-The improvement of the paper is four changes of Ritter's algorithm. Each is a switch of its own
-here, so that any change can be removed from the improved algorithm or added to Ritter's.
+The paper improves Ritter's algorithm by four changes. Each change is a switch here, so it can be
+removed from the improved algorithm or added to Ritter's.
 """
 
 from collections.abc import Mapping
@@ -35,22 +35,22 @@ class Rules:
         theta_increments: propagate increments of theta, (6) and (7), or its values, (2) and (4).
         jacobian_increments: propagate increments of the Jacobian, (8) and (9), or its values, (3)
             and (5).
-        equal_visits: widths fall by the schedule of section 6, or by Ritter's exponential one.
+        equal_visits: widths fall by the schedule of section 6, or by Ritter's exponential schedule.
         supernet, subnet: cells along each position and each orientation coordinate.
-        centres: of the cells: in the middle of equal "boxes", or from face to face ("faces") of the
-            workspace (section 3).
-        metric: six factors that turn workspace coordinates into the units in which the norm in (3)
-            and (8) is taken; by their ratios alone. All 1: half-ranges of the workspace.
-            The half-ranges in m and rad: metres with radians.
-        width_units: six factors that turn workspace coordinates into the units of widths, in which
-            distances between centres are measured. All 1: half-ranges of the workspace.
+        centres: centres of the cells: in the middle of equal "boxes", or from face to face
+            ("faces") of the workspace (section 3).
+        metric: six factors that convert workspace coordinates into the units of the norm in (3) and
+            (8); only their ratios matter. If all are 1, the units are half-ranges of the workspace;
+            if they are the half-ranges in m and rad, the units are metres and radians.
+        width_units: six factors that convert workspace coordinates into units of widths, in which
+            distances between centres are measured. If all are 1: half-ranges of the workspace.
         dimensions: n in (10), for equal visits: 3 (of each net) or 6 (of both together).
         spread: visits are equal for equal steps of "widths", or of their "logarithms".
-        rate: how the learning rate falls, "linear" (section 7) or "exponential" (Ritter); None:
+        rate: law of the learning rate, "linear" (section 7) or "exponential" (Ritter); None:
             linear with equal visits, exponential without.
-        initial: None: theta starts as the identity; a seed: where values of theta are propagated,
-            each cell's is drawn uniformly from the workspace, once for all runs. Increments of
-            theta start as the identity anyway: they never forget their start.
+        initial: None: theta starts as the identity. A seed: if values of theta are propagated, each
+            cell's theta is drawn uniformly from the workspace, the same for all runs. Increments
+            never replace the start, so with increments theta always starts as the identity.
 
     Raises UnknownName and InvalidSetting.
     """
@@ -93,17 +93,17 @@ class Rules:
 
     @property
     def law_of_rate(self) -> str:
-        """The law of the learning rate: `rate`, or the one that matches the widths' law."""
+        """The law of the learning rate: `rate`, or by default the law that matches the widths."""
         return self.rate or ("linear" if self.equal_visits else "exponential")
 
     @property
     def width_power(self) -> float:
-        """The power of widths that is linear in time; see `recalib.learners.schedules`."""
+        """The power of the width that is linear in time; see `recalib.learners.schedules`."""
         return equal_visits(self.dimensions, self.spread) if self.equal_visits else EXPONENTIAL
 
     @property
     def rate_power(self) -> float:
-        """As `width_power`, for the learning rate."""
+        """The power of the learning rate that is linear in time."""
         return RATES[self.law_of_rate]
 
 

@@ -1,4 +1,4 @@
-"""The nominal controller without corrections: the baseline of every learner."""
+"""The nominal controller without corrections: the baseline for every learner."""
 
 import numpy as np
 

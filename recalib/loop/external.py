@@ -1,4 +1,4 @@
-"""A user's own robot in place of the simulated ones, and checks of the poses that it measures."""
+"""A user's own robot in place of a simulated one, and checks of the poses that it measures."""
 
 from collections.abc import Callable
 
@@ -9,26 +9,26 @@ from recalib.errors import BadMeasurement, InvalidSetting, check_kind
 from recalib.loop.interfaces import Outcome
 from recalib.nominal.poses import Workspace
 
-FARTHEST = 10.0  # m from where the tool should be: that is no arm, or not in metres
-SKEW = 0.01  # of a rotation matrix, as instruments round it
+FARTHEST = 10.0  # m from the workspace's centre: farther poses are not in metres
+SKEW = 0.01  # greatest error of R R' = 1: instruments round the numbers of a rotation matrix
 POSE = "a rotation and a position, above a row of 0, 0, 0, 1"
 
 
 class ExternalRobot:
-    """A robot of your own, real or simulated, for learners to command; see `Commandable`.
+    """Your own robot, real or simulated, for learners to command; see `Commandable`.
 
-    It serves any number of runs, one move after the other.
+    It serves any number of runs and executes one move at a time.
 
     Args:
-        workspace: in which it works.
+        workspace: the robot's workspace.
         move: commands a pose (4, 4) in the base frame [m] and returns the measured pose (4, 4), or
             None if the robot refuses.
 
     Attributes:
-        moves: how many moves were commanded in each run.
-        refused: (run,) how many of them the robot refused; 0 before the first.
+        moves: the number of moves commanded in each run.
+        refused: (run,) the number of moves that the robot refused; 0 before the first move.
 
-    Raises InvalidSetting: something else than a workspace and a function.
+    Raises InvalidSetting for arguments of other types.
     """
 
     def __init__(self, workspace: Workspace, move: Callable[[np.ndarray], np.ndarray | None]):
@@ -40,9 +40,9 @@ class ExternalRobot:
         self.refused: np.ndarray | int = 0
 
     def execute(self, commands: np.ndarray) -> Outcome:
-        """Command poses, coordinates (run, move, 6), and take what the robot measures.
+        """Command poses, coordinates (run, move, 6), and return the measured outcome.
 
-        Raises BadMeasurement, as `achieve`.
+        Raises BadMeasurement like `achieve`.
         """
         poses, executed = self.achieve(commands)
         self.moves += executed.shape[1]
@@ -50,10 +50,10 @@ class ExternalRobot:
         return Outcome(self.workspace.to_coordinates(poses), executed)
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Measured poses (run, move, 4, 4) and whether each was executed (run, move), not counted.
+        """Measured poses (run, move, 4, 4) and whether each was executed (run, move).
 
-        A refused move counts as the centre of the workspace. Raises BadMeasurement if a measurement
-        is not a pose, or is grossly off.
+        These moves are not counted. The pose of a refused move is the centre of the workspace.
+        Raises BadMeasurement if a measurement is not a pose, or is grossly off.
         """
         poses = self.workspace.to_poses(commands)
         executed = np.ones(commands.shape[:-1], dtype=bool)
@@ -64,10 +64,10 @@ class ExternalRobot:
         return poses, executed
 
     def _checked(self, given: ArrayLike) -> np.ndarray:
-        """A measured pose (4, 4) [m]. Raises BadMeasurement: it is no pose, or grossly off."""
+        """A measured pose (4, 4) [m]. Raises BadMeasurement if it is no pose, or grossly off."""
         try:
             measured = np.asarray(given, dtype=float)
-        except (TypeError, ValueError):  # something else than numbers
+        except (TypeError, ValueError):  # not numbers
             measured = np.empty(0)
         if measured.shape != (4, 4):
             valid = "a matrix (4, 4)"
@@ -83,7 +83,7 @@ class ExternalRobot:
 
 
 def are_poses(matrices: np.ndarray) -> np.ndarray:
-    """Whether matrices (..., 4, 4) are poses, (...): none is transposed, mirrored or scaled."""
+    """Whether each of the matrices (..., 4, 4) is a pose: not transposed, mirrored or scaled."""
     turns = matrices[..., :3, :3]
     skew = np.abs(turns @ turns.swapaxes(-2, -1) - np.eye(3)).max(axis=(-2, -1))
     ends = (matrices[..., 3, :] == [0, 0, 0, 1]).all(axis=-1)

@@ -1,7 +1,7 @@
-"""Interfaces between the parts: an object that implements one can replace the shipped one.
+"""Interfaces of robots and learners: any object that implements one can be used.
 
 Commands and achieved poses are coordinates of the workspace (`recalib.nominal.poses`). The first
-axis is always the run: an experiment trains many runs side by side.
+axis is always the run, because an experiment trains many runs side by side.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -17,9 +17,9 @@ class Outcome(NamedTuple):
     """The outcome of commanded moves, axes (run, move).
 
     Attributes:
-        achieved: (run, move, 6) coordinates of the achieved poses; a refused move leaves the arm
+        achieved: (run, move, 6) coordinates of the achieved poses; after a refused move the arm is
             at home.
-        executed: (run, move) whether the command was carried out.
+        executed: (run, move) whether each command was executed.
     """
 
     achieved: np.ndarray
@@ -33,22 +33,22 @@ Execute = Callable[[np.ndarray], Outcome]
 class Learner(Protocol):
     """The interface of a learner: it commands desired poses and learns from the outcomes.
 
-    Nothing but pose commands and measured poses pass between it and a robot.
+    A learner and a robot exchange only pose commands and measured poses.
     """
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
-        """One iteration: try the desired poses (run, 6) by moves through `execute`; learn from it.
+        """One iteration: command desired poses (run, 6) by `execute`, and learn from the outcome.
 
         Args:
-            fraction: of the training that is done, in [0, 1).
+            fraction: part of the training that is done, in [0, 1).
         """
 
 
-# What one run has learned: arrays by name, in groups where that is clearer. What is None or absent
-# has not been learned yet.
+# The learned state of one run: arrays by name, or groups of arrays. An array that has not been
+# learned yet is None or absent.
 State = Mapping[str, Any]
 
 
@@ -60,16 +60,16 @@ class Savable(Learner, Protocol):
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
-        """An untrained learner for a number of runs, from its `settings`."""
+        """An untrained learner for a number of runs, from the `settings` of another."""
 
     def settings(self) -> dict[str, Any]:
-        """Its settings, in the types of JSON; `by_run` lists those that differ between runs."""
+        """Settings, in the types of JSON; `by_run` lists settings that differ between runs."""
 
     def state(self) -> list[State]:
-        """The learned state of each run, sufficient to continue training."""
+        """The learned state of each run, sufficient for further training."""
 
     def restore(self, states: Sequence[State]) -> None:
-        """Restore a `state` in a learner with the same settings."""
+        """Set the state to the `state` of a learner with the same settings."""
 
 
 @runtime_checkable
@@ -86,16 +86,16 @@ class Commandable(Protocol):
 
     @property
     def refused(self) -> np.ndarray | int:
-        """The number (run,) of moves that were not executed; 0 before the first."""
+        """The number (run,) of moves that were not executed; 0 before the first move."""
 
     def execute(self, commands: np.ndarray) -> Outcome:
-        """Command poses, coordinates (run, move, 6), and measure what is achieved."""
+        """Command poses, coordinates (run, move, 6), and measure the achieved poses."""
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Achieved poses (run, move, 4, 4) [m] and whether each was executed (run, move).
 
-        As `execute`, but to evaluate a learner: these moves are not counted and, if the robot is
-        simulated, free of disturbances.
+        Use it to evaluate a learner: unlike moves by `execute`, these moves are not counted and, if
+        the robot is simulated, have no random errors.
         """
 
 
@@ -104,4 +104,4 @@ class ForwardKinematics(Protocol):
     """The interface of a simulated robot's arm: its forward kinematics."""
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Tool poses (n, 4, 4) [m] in the base, at a controller's joint angles (n, joint) [rad]."""
+        """Tool poses (n, 4, 4) [m] in the base frame, at joint angles (n, joint) [rad]."""

@@ -1,7 +1,7 @@
-"""Checks of what moves achieved, before a learner learns from it: unusable numbers are refused.
+"""Checks of achieved poses before a learner uses them.
 
-A NaN would spread silently through everything learned from it, and so would millimetres taken for
-metres. All learners use the same `check_moves`.
+A NaN, or millimetres instead of metres, would silently spoil everything that is learned. All
+learners use the same `check_moves`.
 """
 
 import numpy as np
@@ -10,12 +10,12 @@ from recalib.errors import BadMeasurement
 from recalib.numerics.compiled import compiled
 
 # Workspace coordinates; the workspace reaches from -1 to 1. Links 12 cm too short and encoders 12
-# degrees off move an arm by 1 or 2. At 5 it is away by twice the size of the workspace.
+# degrees off cause errors of 1 or 2. A pose at 5 is twice the size of the workspace away from it.
 OUTSIDE = 5.0
-# A command beyond half a turn comes back as a smaller one. One beyond a quarter of a turn about the
-# middle axis comes back as up to half a turn about the others, which is at most twice as much.
+# Angles wrap: a commanded turn beyond 180 degrees is measured as a smaller one. A pitch beyond 90
+# degrees is measured as roll and yaw of up to 180 degrees, which is at most twice as much.
 WRAPPED = 2.0
-MOVED, STUCK = 0.1, 0.01  # commands so far apart do not lead to poses so close together
+MOVED, STUCK = 0.1, 0.01  # commands at least MOVED apart, poses less than STUCK apart: a stuck arm
 Moves = tuple[np.ndarray, np.ndarray, np.ndarray]  # commands, achieved, executed
 NO_MOVES: Moves = np.empty((0, 1, 6)), np.empty((0, 1, 6)), np.empty((0, 1), dtype=bool)
 
@@ -23,29 +23,29 @@ NO_MOVES: Moves = np.empty((0, 1, 6)), np.empty((0, 1, 6)), np.empty((0, 1), dty
 def check_moves(
     commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray, last: Moves | None = None
 ) -> Moves:
-    """Raise BadMeasurement unless what moves achieved are numbers, no arm's length off, and differ.
+    """Raise BadMeasurement if achieved poses are not numbers, are far off, or do not change.
 
     Args:
-        commands, achieved: (run, move, 6) coordinates of the workspace. A refused move counts,
-            too: it leaves the arm at home.
-        executed: (run, move) whether it was carried out.
-        last: the move before these, as this function returned it.
+        commands, achieved: (run, move, 6) coordinates of the workspace. Refused moves are checked,
+            too: their pose is home.
+        executed: (run, move) whether each move was executed.
+        last: the previous move, as this function returned it.
 
-    Returns the last of these moves, commands, achieved and executed, with a move axis of 1.
+    Returns the last move: commands, achieved and executed, with a move axis of 1.
     """
     moves = commands, achieved, np.asarray(executed)
     run, move, stuck = _first_wrong(*moves, *(last or NO_MOVES))
     if run >= 0:
-        # A command may be NaN where a learner diverges; such a move is refused, and harmless.
+        # A command may be NaN if a learner diverges; such a move is refused, and harmless.
         allowed = OUTSIDE + WRAPPED * np.abs(commands[run, move]).max()
         valid = (
             "six coordinates of the workspace, which reaches from -1 to 1, each a number up to"
             f" {allowed:.3g} for such a command"
         )
         if stuck:
-            valid = "another pose than the move before it, whose command was another one"
+            valid = "a pose that differs from that of the previous move, as the commands do"
         raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
-    if commands.shape[1] > 1:  # compiled loops want whole arrays
+    if commands.shape[1] > 1:  # compiled loops need contiguous arrays
         return commands[:, -1:].copy(), achieved[:, -1:].copy(), executed[:, -1:].copy()
     return commands, achieved, executed
 
@@ -59,9 +59,10 @@ def _first_wrong(
     last_achieved: np.ndarray,
     last_executed: np.ndarray,
 ) -> tuple[int, int, bool]:
-    """Run and move of the first that achieved no numbers, or was too far off; -1 if none.
+    """Run and move of the first bad pose, and whether the arm was stuck; -1 if all are good.
 
-    Or, with the third value true, of the first that led to the pose before it by another command.
+    A pose is bad if it holds no numbers or is too far off, or if it equals the previous pose
+    although the commands differ: then the arm was stuck.
     """
     for run in range(achieved.shape[0]):
         for move in range(achieved.shape[1]):
@@ -75,13 +76,13 @@ def _first_wrong(
                     return run, move, False
             if move == 0 and not len(last_commands):
                 continue
-            before = commands[run, move - 1] if move > 0 else last_commands[run, 0]
-            there = achieved[run, move - 1] if move > 0 else last_achieved[run, 0]
+            command = commands[run, move - 1] if move > 0 else last_commands[run, 0]
+            pose = achieved[run, move - 1] if move > 0 else last_achieved[run, 0]
             done = executed[run, move - 1] if move > 0 else last_executed[run, 0]
             gap, sent = 0.0, 0.0
             for number in range(6):
-                gap = max(gap, abs(achieved[run, move, number] - there[number]))
-                sent = max(sent, abs(commands[run, move, number] - before[number]))
+                gap = max(gap, abs(achieved[run, move, number] - pose[number]))
+                sent = max(sent, abs(commands[run, move, number] - command[number]))
             if gap < STUCK and sent > MOVED and executed[run, move] and done:
                 return run, move, True
     return -1, -1, False

@@ -1,6 +1,6 @@
-"""The trial loop: a learner drives robots, pose after pose, and is measured on other poses.
+"""The trial loop: a learner practises on one set of poses and is evaluated on another.
 
-Afterwards its commands are `corrected`.
+After training, `corrected` returns its commands.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -26,8 +26,8 @@ class History:
     """Errors by iteration; without the run axis if a single robot was trained.
 
     Attributes:
-        iterations, moves: (measurement,) done before each measurement, in each run.
-        refused: (run, measurement) moves refused until then.
+        iterations, moves: (measurement,) their numbers in each run before each measurement.
+        refused: (run, measurement) number of refused moves before each measurement.
         position: (run, measurement, summary) mean, 95th percentile and maximum of the position
             errors in m.
         orientation: the same of the orientation errors in rad.
@@ -55,7 +55,7 @@ class History:
         return replace(self, **parts)
 
     def columns(self) -> dict[str, np.ndarray]:
-        """A table by its columns, a row for each run and measurement; errors in cm and degrees."""
+        """Columns of a table with a row for each run and measurement; errors in cm and degrees."""
         runs = self.refused.size // len(self.iterations)
         table = {
             "run": np.repeat(np.arange(runs), len(self.iterations)),
@@ -76,8 +76,8 @@ def measure(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Position [m] and orientation errors [rad], each (run, summary), at poses (run, pose, 6).
 
-    Measuring teaches nothing: its moves are not counted. Which `error` of a pose it is:
-    see `recalib.nominal.poses.pose_errors`.
+    The learner does not learn from these moves, and they are not counted. For `error`, see
+    `recalib.nominal.poses.pose_errors`.
     """
     achieved, _ = plant.achieve(learner.command(tests))
     errors = pose_errors(plant.workspace, achieved, plant.workspace.to_poses(tests), error)
@@ -96,21 +96,21 @@ def train(
     progress: Callable[[int, float, float], None] = lambda *_: None,
     error: str = "norm",
 ) -> History:
-    """The history of a learner's training.
+    """Train a learner and return the history of its errors.
 
     Args:
         plant: the robots.
-        learner: that drives them.
+        learner: the learner that commands them.
         desired: (run, iteration, 6) poses to learn from; for one robot, (iteration, 6).
         tests: (run, pose, 6) poses to measure on; for one robot, (pose, 6).
-        measure_at: numbers of iterations after which learning is interrupted for a measurement, in
-            any order; 0 is before the first.
+        measure_at: numbers of iterations after which to measure errors, in any order; 0 is before
+            the first iteration.
         progress: called after each measurement with the iteration and the mean errors over runs in
             cm and degrees.
-        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+        error: definition of a pose's errors; see `recalib.nominal.poses.pose_errors`.
 
-    Raises InvalidSetting: something else than a plant and a learner; poses of other shapes, or none
-    to measure on; a measurement after more iterations than there are, or none at all.
+    Raises InvalidSetting for arguments of other types, poses of other shapes, no test poses, no
+    measurements, or a measurement after more iterations than there are.
     """
     check_kind("plant", plant, Commandable)
     check_kind("learner", learner, Learner)
@@ -143,10 +143,10 @@ def corrected(learner: Learner, workspace: Workspace, poses: np.ndarray) -> np.n
     """Pose commands (n, 4, 4) [m] that take the tool of one robot to desired poses (n, 4, 4) [m].
 
     Args:
-        learner: that learned on this robot, in one run.
-        workspace: of the robot.
+        learner: a learner that was trained on this robot, in one run.
+        workspace: the robot's workspace.
 
-    Raises InvalidSetting: another shape, something else than a learner and a workspace.
+    Raises InvalidSetting for arguments of other shapes or types.
     """
     check_kind("learner", learner, Learner)
     check_kind("workspace", workspace, Workspace)

@@ -1,4 +1,4 @@
-"""Serial arms from URDFs: the joints between a base link and a tool link, all others locked."""
+"""Serial arms from URDFs: the joints between a base link and a tool link; all others are locked."""
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -25,32 +25,32 @@ from recalib.nominal.kinematics import Arm, Coupling, tool_frame
 from recalib.spelling import listed
 
 KINDS = "fixed", *MOVING
-NAMESAKE = " (joint)"  # after the name of one that is called like a link
-MOST_MOVING = 100  # joints between base and tool: the time for more grows with their cube
-UNBOUNDED = 1e300  # a limit that urdfdom can read, beyond which there is none
+NAMESAKE = " (joint)"  # suffix for a joint that has the same name as a link
+MOST_MOVING = 100  # joints between base and tool: computing time grows with the cube of the number
+UNBOUNDED = 1e300  # stands for "no limit"; urdfdom can read this number
 FARTHEST, HEAVIEST = 50.0, 1e6  # m from a joint to the next, to the tool or a link's centre; kg
 
 
 def load_arm(urdf: str | PathLike[str], tool: str | None = None, base: str | None = None) -> Arm:
-    """The arm of one-axis joints, turning or sliding, that carries a tool link from a base link.
+    """The serial arm from a base link to a tool link; its joints turn or slide.
 
-    Joints elsewhere are locked at neutral. A turning joint without limits is one of limits at
-    infinity. What gravity does follows from the base link's axes: z is up at the URDF's root.
+    Other joints are locked at neutral. A turning joint without limits gets infinite limits. Gravity
+    acts along -z of the URDF's root, whichever link is the base.
 
     Args:
         urdf: see `find_urdf`.
         tool: link whose frame is the pose; default: the only end of the arm.
-        base: link in whose frame poses are; default: the root.
+        base: link in whose frame poses are expressed; default: the root.
 
     Raises UnknownName (URDF, link), InvalidFile (no such file), InvalidSetting (several ends, and
-    no tool given), and UnsuitableRobot: no URDF, or no such arm.
+    no tool), and UnsuitableRobot (not a URDF, or no such arm in it).
     """
     path = find_urdf(urdf)
     return arm_of(read_file(path, MOST), path, tool, base)
 
 
 def arm_of(source: bytes, path: Path, tool: str | None = None, base: str | None = None) -> Arm:
-    """As `load_arm`, from the content of a URDF; its path is for messages."""
+    """Like `load_arm`, from the content of a URDF; `path` is only for messages."""
     tree = _Tree(source, path)
     base = tree.link("base", base or tree.root)
     tool = tree.link("tool", tool) if tool else tree.only_end(base)
@@ -72,12 +72,12 @@ def arm_of(source: bytes, path: Path, tool: str | None = None, base: str | None 
 def _coupling_of(
     joints: Mapping[str, ElementTree.Element], names: Sequence[str], limits: np.ndarray
 ) -> Coupling | None:
-    """The coupling of joints by `<mimic>`; None if none follows another.
+    """The coupling of joints by `<mimic>`; None if no joint follows another.
 
     `joints` are all joints of a URDF, by name. `names` and `limits` (2, joint) [rad, m], lower and
-    upper, are of those between base and tool.
+    upper, describe the joints between base and tool.
 
-    Raises UnsuitableRobot: a joint that follows itself, or none that moves.
+    Raises UnsuitableRobot if a joint follows itself, or a joint that cannot move.
     """
     if all(joints[name].find("mimic") is None for name in names):
         return None
@@ -96,7 +96,7 @@ def _coupling_of(
 
 
 def _followed(joints: Mapping[str, ElementTree.Element], name: str) -> tuple[str, float, float]:
-    """The joint that drives another, by which factor, and from where on."""
+    """The joint that drives another, and the factor and offset of the coupling."""
     gain, shift, chain = 1.0, 0.0, [name]
     while (mimic := joints[chain[-1]].find("mimic")) is not None:
         shift += gain * float(mimic.get("offset", "0"))
@@ -141,24 +141,22 @@ class _Tree:
     """The links and joints of a URDF.
 
     Attributes:
-        model: Pinocchio's, each continuous joint a revolute one with limits out of reach: else it
-            would have two coordinates, a cosine and a sine.
+        model: Pinocchio's model. Continuous joints are revolute joints with limits out of reach,
+            because Pinocchio gives a continuous joint two coordinates, cosine and sine.
         root: the link that no joint carries.
-        joints: elements by their names.
+        joints: XML elements by joint name.
     """
 
     def __init__(self, source: bytes, path: Path):
         robot = parsed(source, path)
         if path.suffix == ".xacro" or any("xacro" in element.tag for element in robot.iter()):
-            raise UnsuitableRobot(
-                f"{path} is a xacro file; try: what `xacro {path.name}` expands it to"
-            )
+            raise UnsuitableRobot(f"{path} is a xacro file; try: the output of `xacro {path.name}`")
         links = {link.get("name", "") for link in robot.iterfind("link")}
         for joint in robot.iterfind("joint"):
             if joint.get("type") == "continuous":
                 _bound(joint)
             name = joint.get("name", "")
-            if name in links:  # Pinocchio takes frames of one name for another
+            if name in links:  # Pinocchio confuses frames with the same name
                 joint.set("name", name + NAMESAKE)
         check_description(robot, path)
         try:
@@ -172,14 +170,14 @@ class _Tree:
         self.joints = {
             joint.get("name", "").removesuffix(NAMESAKE): joint for joint in robot.iterfind("joint")
         }
-        # Pinocchio has no frames of links in a circle, which hang on nothing
+        # Pinocchio has no frames for links in a loop, which no root carries
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
         self._circles = sorted(links.difference(self._links))
         self.root = self._links[0]
 
     def link(self, role: str, name: str) -> str:
-        """The same name, if a link has it. Raises UnknownName, UnsuitableRobot (in a circle)."""
+        """The name itself, once checked. Raises UnknownName, or UnsuitableRobot (in a loop)."""
         if name in self._circles:
             self._refuse_circles()
         check_name(f"{role} link of {self._name}", name, self._links)
@@ -190,8 +188,8 @@ class _Tree:
         raise UnsuitableRobot(f"{found}; expected: a tree")
 
     def only_end(self, base: str) -> str:
-        """The link above which there are joints that move, up to the base, and below it nothing."""
-        if self._circles:  # the arm may be in them
+        """The only link without children that a joint moves against the base."""
+        if self._circles:  # the arm may be in a loop
             self._refuse_circles()
         carrying = {link_of(joint, "parent") for joint in self._joints.values()}
         ends = [
@@ -208,7 +206,7 @@ class _Tree:
         return ends[0]
 
     def joints_between(self, base: str, tool: str) -> list[str]:
-        """Names of the joints that move one link against another."""
+        """Names of the joints that move the tool relative to the base."""
         between = self._joints_up(tool, base)
         if between is None:
             raise UnsuitableRobot(f"{base} does not carry {tool} in {self._name}")
@@ -241,7 +239,7 @@ class _Tree:
 
 
 def _bound(joint: ElementTree.Element) -> None:
-    """Make a continuous joint one with limits out of reach."""
+    """Turn a continuous joint into a revolute joint with limits out of reach."""
     joint.set("type", "revolute")
     limit = joint.find("limit")
     if limit is None:
@@ -251,7 +249,7 @@ def _bound(joint: ElementTree.Element) -> None:
 
 
 def _stand_on(model: pin.Model, base: pin.SE3) -> None:
-    """Have the model's world where its base link is: `base` in its world so far."""
+    """Move the model's world frame to its base link; `base` is the link's pose in the old frame."""
     back = base.inverse()
     model.jointPlacements[1] = back * model.jointPlacements[1]
     for frame in model.frames:

@@ -1,7 +1,7 @@
 """Serial arms as arrays, for many postures at once.
 
-If a joint slides, its joint angle is a length [m]. The placements of joints and
-tool come from Pinocchio, which stays the reference.
+The "angle" of a sliding joint is a length [m]. The placements of joints and tool come from
+Pinocchio, which is the reference in tests.
 """
 
 from collections.abc import Sequence
@@ -25,14 +25,14 @@ class Chain(kernels.Arms):
 
     @classmethod
     def of(cls, arm: Arm, offsets: np.ndarray | None = None) -> Self:
-        """A single arm, whose joints stand by offsets (n,) [rad, m] beyond their joint angles.
+        """A single arm; `offsets` (n,) [rad, m] are added to its joint angles.
 
-        The chain does not follow when the arm changes.
+        The chain is a copy: later changes of the arm do not affect it.
         """
         model, frame = arm.model, arm.model.frames[tool_frame(arm.model, arm.tool)]
         joints, before, placements = [*model.jointPlacements][1:], pin.SE3.Identity(), []
         for joint, placement in enumerate(joints):
-            # M(q + offset) = R Mz(offset) Mz(q) inv(R), where R turns z to the joint's axis
+            # M(q + offset) = R Mz(offset) Mz(q) inv(R); R rotates z to the joint's axis
             along_z = pin.SE3(pin.Quaternion.FromTwoVectors(Z, arm.axes[joint]), np.zeros(3))
             offset = 0.0 if offsets is None else offsets[joint]
             placements.append(before * placement * along_z * _motion(offset, arm.slides[joint]))
@@ -43,13 +43,13 @@ class Chain(kernels.Arms):
 
     @classmethod
     def side_by_side(cls, chains: Sequence[Self]) -> Self:
-        """The arms of several chains, with equally many joints."""
+        """All arms of several chains, which must have the same number of joints."""
         return cls(*map(np.concatenate, zip(*chains, strict=True)))
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (arm, posture, 4, 4) of the tools [m] at joint angles (arm, posture, n) [rad].
 
-        Raises InvalidSetting: angles of other arms or joints.
+        Raises InvalidSetting for another number of arms or joints.
         """
         self._check(angles, len(self.slides))
         return kernels.forward(tuple(self), angles)
@@ -57,18 +57,18 @@ class Chain(kernels.Arms):
     def solve(self, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Joint angles (posture, n) [rad] that take the tool of the first arm to poses.
 
-        By Newton's method, each pose by itself. With more than six joints, each of its steps is the
-        shortest; with fewer, the one that leaves least.
+        Newton's method solves each pose independently. With more than six joints, each step is the
+        shortest; with fewer, it minimises the residual.
 
         Args:
             poses: (posture, 4, 4) m.
-            start: (posture, n) rad nearby.
+            start: (posture, n) rad, initial estimates.
 
-        Returns the angles and the error of each (posture,), the largest number of its residual
-        in m and rad: above TOLERANCE, the pose was not reached. It is infinite where the pose or
-        the start holds nan.
+        Returns the angles and their errors (posture,): the largest component of the residual, in m
+        and rad. If an error exceeds TOLERANCE, the pose was not reached. It is infinite if the pose
+        or the initial estimate contains nan.
 
-        Raises InvalidSetting: angles of other joints, or not one start for each pose.
+        Raises InvalidSetting for another number of joints, or another number of initial estimates.
         """
         self._check(start)
         if poses.shape != (len(start), 4, 4):
@@ -77,7 +77,7 @@ class Chain(kernels.Arms):
         return kernels.solve(tuple(self), poses, start.astype(float))
 
     def _check(self, angles: np.ndarray, *arms: int) -> None:
-        """Raise InvalidSetting unless angles are (*arms, posture, n): compiled loops cannot."""
+        """Raise InvalidSetting unless angles are (*arms, posture, n): compiled loops can't."""
         expected = *arms, np.atleast_2d(angles).shape[-2], self.slides.shape[1]
         if angles.shape != expected:
             found, valid = f"of shape {angles.shape}", f"an array {expected}"
@@ -85,7 +85,7 @@ class Chain(kernels.Arms):
 
 
 def _motion(angle: float, slides: bool) -> pin.SE3:
-    """What a joint does: a turn about z [rad], or where it slides, a way along it [m]."""
+    """A joint's motion: a rotation about z [rad] or, if it slides, a translation along z [m]."""
     if slides:
         return pin.SE3(np.eye(3), angle * Z)
     return pin.SE3(pin.AngleAxis(angle, Z).matrix(), np.zeros(3))

@@ -1,15 +1,14 @@
-"""The nominal controller: joint angles for a pose command, by the kinematics of the intact robot.
+"""The nominal controller: joint angles for a pose command, from the kinematics of the intact robot.
 
-It stands for the inverse kinematics that the manufacturer built in, which the paper leaves
-untouched (section 3): the same command always gives the same joint angles. Newton's method starts
-from a polynomial that approximates the joint angles over the workspace. Each command is solved by
-itself: no other command, before it or in the same batch, has an influence.
+It represents the manufacturer's inverse kinematics, which the paper leaves untouched (section 3):
+the same command always gives the same joint angles. Newton's method starts from a polynomial that
+approximates the joint angles over the workspace. Each command is solved independently: no other
+command, before it or in the same batch, affects the result.
 
-The same holds for a redundant arm, with more than six joints. Of the postures for a pose the
-controller takes one near home, which changes smoothly with the pose: the polynomial fits postures
-that were found from home outwards by the shortest steps, and from there Newton's method takes the
-shortest ones, too. So poses determine joint angles, and a learner that sees poses alone misses
-nothing.
+The same holds for a redundant arm, with more than six joints. Among the postures for a pose, the
+controller chooses one near home that changes smoothly with the pose: the polynomial fits postures
+that were found from home outwards by shortest steps, and Newton's method continues from there by
+shortest steps. So a pose determines the joint angles, and a learner needs no more than poses.
 """
 
 from collections.abc import Callable
@@ -27,20 +26,20 @@ from recalib.nominal.robots import Robot, shown
 from recalib.numerics.monomials import factors, monomials
 
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
-BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
-DEGREE = 3  # of the first guess: off by a degree or less, where Newton's method needs three steps
+BOXES = 0.25, 0.5, 0.75, 1.0  # sizes of the boxes with knots, relative to the workspace
+DEGREE = 3  # of the start polynomial: its error is at most a degree, so three Newton steps suffice
 NOT_REACHED = "no joint angles reach it"
-ROUNDS = 4  # in which the joint angles of a redundant arm settle; each leaves some hundredths
-GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at work has 12
+ROUNDS = 4  # of iteration for a redundant arm; each reduces the error to some hundredths
+GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 typically has 12
 
 
 class Targets(NamedTuple):
     """Joint angles for commands.
 
     Attributes:
-        angles: (..., joint) rad to which they take the robots.
-        residuals: (...) the largest remaining component of the pose, in m or rad.
-        within_limits: (...) whether the arm's joints can turn so far.
+        angles: (..., joint) rad, the solutions.
+        residuals: (...) the largest component of the remaining pose error, in m or rad.
+        within_limits: (...) whether the angles are within the joint limits.
     """
 
     angles: np.ndarray
@@ -49,7 +48,7 @@ class Targets(NamedTuple):
 
     @property
     def executed(self) -> np.ndarray:
-        """(...) whether they are carried out."""
+        """(...) whether each command is executed."""
         return (self.residuals <= TOLERANCE) & self.within_limits
 
 
@@ -58,12 +57,12 @@ class Controller:
 
     Args:
         robot: the nominal robot.
-        greatest_condition: the singularity margin: the largest condition number of the Jacobian
-            that is accepted on a grid over the workspace, with pose velocities divided by the
-            workspace's half-ranges.
+        greatest_condition: the singularity margin: the largest accepted condition number of the
+            Jacobian on a grid over the workspace, with pose velocities divided by the workspace's
+            half-ranges.
 
-    Raises UnfitWorkspace where the workspace is out of reach, beyond a joint limit or too near to a
-    singularity, and InvalidSetting: something else than a robot.
+    Raises UnfitWorkspace if part of the workspace is out of reach, beyond a joint limit or too near
+    to a singularity, and InvalidSetting if `robot` is not a Robot.
     """
 
     def __init__(self, robot: Robot, greatest_condition: float = GREATEST_CONDITION):
@@ -72,7 +71,7 @@ class Controller:
         self.robot, self._chain = robot, Chain.of(robot.arm)
         grid = np.array(list(product(np.linspace(-1, 1, KNOTS), repeat=6)))
         knots, solved = np.tile(robot.home, (len(grid), 1)), []
-        for part in BOXES:  # from home outwards, so that every knot is on the branch of home
+        for part in BOXES:  # from home outwards: all knots are on the same branch of solutions
             poses = robot.workspace.to_poses(grid * part)
             knots, residuals = self._chain.solve(poses, knots)
             solved.append(knots)
@@ -83,23 +82,23 @@ class Controller:
 
     @cached_property
     def nominal(self) -> kernels.ControllerArrays:
-        """What compiled loops need to answer commands: the arm, its workspace, where they start.
+        """The arrays for compiled loops: the arm, its workspace, limits and start polynomial.
 
-        The start is a polynomial through the knots, which is made when it is first needed.
+        The polynomial is fitted to the knots when it is first needed.
         """
         coordinates, angles = self._knots
         q, r = np.linalg.qr(monomials(coordinates, DEGREE))
         start = *factors(6, DEGREE), np.linalg.solve(r, q.T @ angles)
         limits = self.robot.lower, self.robot.upper
-        given: tuple[Any, ...] = *self._chain, *self.robot.workspace.region, *start, *limits
-        return kernels.ControllerArrays(*given)
+        arguments: tuple[Any, ...] = *self._chain, *self.robot.workspace.region, *start, *limits
+        return kernels.ControllerArrays(*arguments)
 
     def solve(self, poses: np.ndarray) -> Targets:
-        """Joint targets of the commanded poses (..., 4, 4), never raising."""
+        """Joint targets for the commanded poses (..., 4, 4), also for unreachable ones."""
         return self.targets(self.robot.workspace.to_coordinates(poses))
 
     def targets(self, commands: np.ndarray) -> Targets:
-        """Joint targets of the commands, coordinates (..., 6), never raising."""
+        """Joint targets for commands, coordinates (..., 6), also for unreachable ones."""
         found = kernels.targets(*self.nominal, commands.reshape(-1, 6))
         axes = commands.shape[:-1]
         return Targets(*(part.reshape(*axes, *part.shape[1:]) for part in found))
@@ -107,13 +106,13 @@ class Controller:
     def commands_for(
         self, commands: np.ndarray, needed: Callable[[np.ndarray], np.ndarray]
     ) -> np.ndarray:
-        """The commands (run, move, 6) that yield the required joint angles.
+        """The commands (run, move, 6) for which the controller chooses the required joint angles.
 
-        Of a redundant arm there are many; those are meant which are found from its own answer.
+        A redundant arm has many suitable joint angles; the controller's own answer selects some.
 
         Args:
-            commands: (run, move, 6) nearby.
-            needed: from joint angles (run, move, joint) [rad] to those nearby that are needed.
+            commands: (run, move, 6) initial estimates.
+            needed: from joint angles (run, move, joint) [rad] to the required angles nearby.
         """
         workspace, arm = self.robot.workspace, self.robot.arm
         for _ in range(ROUNDS if len(arm.joints) > 6 else 1):
@@ -125,13 +124,13 @@ class Controller:
     def inverse(self, poses: np.ndarray) -> np.ndarray:
         """Joint angles (n, joint) [rad] for the commanded poses (n, 4, 4).
 
-        Raises Unreachable for the first command that cannot be executed, and InvalidSetting:
+        Raises Unreachable for the first command that cannot be executed, and InvalidSetting for
         another shape.
         """
         solution = self.solve(poses := array_of("poses", poses, ("n", 4, 4)))
         for index in np.flatnonzero(~solution.executed):
-            there = solution.residuals[index] <= TOLERANCE
-            reason = "only beyond the joint limits" if there else NOT_REACHED
+            reached = solution.residuals[index] <= TOLERANCE
+            reason = "only beyond the joint limits" if reached else NOT_REACHED
             raise Unreachable(poses[index], solution.residuals[index], reason)
         return solution.angles
 

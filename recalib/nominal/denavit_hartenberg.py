@@ -1,15 +1,14 @@
 """Serial arms from tables of Denavit-Hartenberg parameters, standard or modified.
 
-Standard: joint i turns about or slides along the z axis of frame i - 1, and the frame that it
-carries is
+Standard: joint i turns about or slides along the z axis of frame i - 1, and carries the frame
 
     T_i = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i)        (Denavit and Hartenberg 1955)
 
-Modified: it moves along its own frame's z axis, with the link before it first in the product:
+Modified: joint i moves about or along the z axis of its own frame, after the link before it:
 
     T_i = Rx(alpha_i) Tx(a_i) Rz(theta_i) Tz(d_i)        (Craig 1986; a and alpha of link i - 1)
 
-The joint angle is added to theta where the joint turns, to d where it slides.
+The joint coordinate is added to theta if the joint turns, to d if it slides.
 """
 
 from collections.abc import Sequence
@@ -23,7 +22,7 @@ from recalib.errors import InvalidSetting, check_kind, check_name
 from recalib.nominal.kinematics import Arm
 
 CONVENTIONS = "standard", "modified"
-MOST = 100  # joints of a serial arm: the time for more grows with their cube
+MOST = 100  # joints of a serial arm: computing time grows with the cube of their number
 BASE, TOOL = "base", "tool"
 
 
@@ -32,7 +31,7 @@ class Row:
     """A joint and a link by their Denavit-Hartenberg parameters.
 
     Attributes:
-        name: of the joint.
+        name: name of the joint.
         a, d: m.
         alpha, theta: rad.
         slides: whether the joint slides.
@@ -47,23 +46,23 @@ class Row:
 
 
 def arm_of_table(rows: Sequence[Row], convention: str = "standard") -> Arm:
-    """The arm of a table, from its base to its tool: the frame of the last row.
+    """The arm that a table describes. The tool is the frame of the last row.
 
-    Masses are missing and limits infinite. The first link is called base, the last one tool, the
-    others after the joints that move them.
+    Links have no masses, and joints no limits. The first link is called base, the last one tool,
+    and the others are named after the joints that move them.
 
-    Raises UnknownName (a convention), and InvalidSetting (no rows or too many, joints of one name,
-    a parameter that is not a number).
+    Raises UnknownName (convention), and InvalidSetting (no rows, too many rows, two joints of the
+    same name, a parameter that is not a number).
     """
     check_name("convention of Denavit-Hartenberg parameters", convention, CONVENTIONS)
     _check(rows)
     model = pin.Model()
     _add_link(model, BASE, 0, pin.SE3.Identity())
-    after = pin.SE3.Identity()  # from the last joint to what comes next
+    after = pin.SE3.Identity()  # from the last joint's frame to the next link
     for row in rows:
         along_x = _screw(0, row.alpha, row.a)
         along_z = _screw(2, row.theta, row.d)
-        # What a joint adds to theta or d commutes with both, so that it may stand before them.
+        # A joint's motion commutes with its constant theta and d, so it may come before them.
         if convention == "standard":
             before, behind = after, along_z * along_x
         else:
@@ -94,7 +93,7 @@ def _check(rows: Sequence[Row]) -> None:
 
 
 def _screw(axis: int, angle: float, length: float) -> pin.SE3:
-    """A turn about a coordinate axis and a slide along it."""
+    """A rotation about a coordinate axis and a translation along it."""
     along = np.eye(3)[axis]
     return pin.SE3(pin.exp3(angle * along), length * along)
 

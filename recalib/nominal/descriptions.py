@@ -1,4 +1,4 @@
-"""Files that describe robots (URDF): where they are, their content, and mistakes in them."""
+"""URDF files: finding them, reading them, and reporting mistakes in them."""
 
 import hashlib
 import importlib
@@ -19,13 +19,13 @@ from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableR
 from recalib.files.storage import path_of, read_file, read_xml
 
 DATA = "example-robot-data"
-FETCHED = "robot_descriptions"  # of robot_descriptions.py, which fetches and keeps them
+FETCHED = "robot_descriptions"  # the package robot_descriptions.py, which downloads and caches them
 MOST = 16_000_000  # bytes
-MOST_JOINTS = 1000  # Pinocchio takes one after the other by recursion, on a stack that ends
+MOST_JOINTS = 1000  # Pinocchio recurses over joints: more may overflow its stack
 MOVING = "revolute", "continuous", "prismatic"  # joints
-SHORTEST = 1e-6  # of an axis: Pinocchio may not normalise a shorter one
-MOST_TURN = 4 * math.pi  # rad in an origin: more are degrees
-NUMBERS = {  # attributes of joints and inertials
+SHORTEST = 1e-6  # length of an axis: Pinocchio may not normalise a shorter one
+MOST_TURN = 4 * math.pi  # rad in an origin: a larger number must be in degrees
+NUMBERS = {  # numeric attributes of joints and inertials, by element
     "origin": ("xyz", "rpy"),
     "axis": ("xyz",),
     "limit": ("lower", "upper"),
@@ -33,18 +33,18 @@ NUMBERS = {  # attributes of joints and inertials
     "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
     "mimic": ("multiplier", "offset"),
 }
-ERROR = "Error:"  # before what urdfdom finds wrong
-STDERR = 2  # its descriptor, which a whole process shares
-_ONE = threading.Lock()  # for one block at a time
+ERROR = "Error:"  # start of urdfdom's messages about mistakes
+STDERR = 2  # file descriptor, shared by the whole process
+_ONE = threading.Lock()  # only one block at a time may redirect stderr
 
 
 def find_urdf(urdf: str | PathLike[str]) -> Path:
-    """The file of a URDF. One of the user's own comes before one of a package.
+    """The file of a URDF. The user's own files take precedence over files of packages.
 
-    `urdf` is a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or the name
+    `urdf` is a path; the name of a file in example-robot-data, such as ur10_robot.urdf; or the name
     of a description in robot_descriptions.py, such as panda_description, if that is installed.
 
-    Raises UnknownName, or InvalidFile if it is a path and not a name.
+    Raises UnknownName, or InvalidFile if it is a path.
     """
     package = package_of(urdf)
     if package is None:
@@ -59,7 +59,7 @@ def find_urdf(urdf: str | PathLike[str]) -> Path:
 
 
 def package_of(urdf: str | PathLike[str]) -> str | None:
-    """The package that a name is of; None for a path to a file. Raises as `find_urdf`."""
+    """The package that contains a named URDF; None for a path. Raises like `find_urdf`."""
     path, name = path_of(urdf), fspath(urdf)
     if os.path.lexists(path) and not os.path.isdir(path):
         return None
@@ -86,9 +86,9 @@ class UrdfFile:
     """The URDF of an arm.
 
     Attributes:
-        path: of the file.
+        path: path of the file.
         content: its bytes.
-        origin: for people: its name, its package if it is of one, and its digest.
+        origin: its name, its package if it has one, and its digest, as text.
     """
 
     path: Path
@@ -97,7 +97,7 @@ class UrdfFile:
 
     @classmethod
     def read(cls, urdf: str | PathLike[str]) -> "UrdfFile":
-        """The file that a path or a name means. Raises as `find_urdf`, and InvalidFile."""
+        """Read a URDF by path or name. Raises like `find_urdf`, and InvalidFile."""
         path, package = find_urdf(urdf), package_of(urdf)
         content = read_file(path, MOST)
         name = f"{path.name} of the package {package}" if package else fspath(urdf)
@@ -105,9 +105,9 @@ class UrdfFile:
 
 
 def parsed(source: bytes, path: Path) -> Element:
-    """The root of a URDF; its path is for messages.
+    """The root element of a URDF; `path` is only for messages.
 
-    Raises UnsuitableRobot: not XML, in another encoding than it declares, or of too many joints.
+    Raises UnsuitableRobot if it is not XML, not in its declared encoding, or has too many joints.
     """
     try:
         robot = read_xml(source, path)
@@ -122,7 +122,7 @@ def parsed(source: bytes, path: Path) -> Element:
 
 
 def local_name(name: str, root: str) -> str:
-    """An element's name without its namespace, if that is the root's: `http://...}joint`."""
+    """An element's name without the root's namespace, which is written as `{http://...}joint`."""
     return name.removeprefix(root[: root.rfind("}") + 1])
 
 
@@ -133,16 +133,16 @@ def link_of(joint: Element, role: str) -> str:
 
 @contextmanager
 def caught_messages() -> Iterator[list[str]]:
-    """The lines that a block writes to stderr, in place of writing them; filled when it ends.
+    """Capture the lines that a block writes to stderr; the list is filled when the block ends.
 
-    Commands report a mistake in one sentence: lines for a compiled library's developers, which no
-    `sys.stderr` of Python's sees, hide it.
+    Commands report a mistake in one sentence. A compiled library's messages to its developers would
+    hide it, and bypass Python's `sys.stderr`.
     """
     lines: list[str] = []
     with _ONE, tempfile.TemporaryFile() as file:
         try:
             before = os.dup(STDERR)
-        except OSError:  # it is closed, so nothing is written there
+        except OSError:  # stderr is closed, so nothing can be written to it
             yield lines
             return
         os.dup2(file.fileno(), STDERR)
@@ -156,9 +156,9 @@ def caught_messages() -> Iterator[list[str]]:
 
 
 def check_description(robot: Element, path: Path) -> None:
-    """Raise UnsuitableRobot unless links are a tree, and joints and masses have finite numbers.
+    """Raise UnsuitableRobot unless links form a tree, and joints and masses have finite numbers.
 
-    Names of links and joints have to be words that a message and a table can show.
+    Names of links and joints must be printable, for messages and tables.
     """
     carried: dict[str, str] = {}
     for part in (*robot.iterfind("link"), *robot.iterfind("joint")):
@@ -192,7 +192,7 @@ def check_description(robot: Element, path: Path) -> None:
 
 
 def mistakes(robot: Element, messages: list[str]) -> Iterator[str]:
-    """What is wrong with a URDF: vectors of other lengths, and then what urdfdom wrote."""
+    """Mistakes in a URDF: vectors of wrong length first, then urdfdom's messages."""
     for part in robot:
         vectors = ((inner, key, inner.get(key)) for inner in part.iter() for key in ("xyz", "rpy"))
         for element, key, text in vectors:
@@ -205,7 +205,7 @@ def mistakes(robot: Element, messages: list[str]) -> Iterator[str]:
 
 
 def _numbers(text: str) -> list[float] | None:
-    """The numbers in a text; None if any of them is not a finite number."""
+    """The numbers in a text; None if it contains anything but finite numbers."""
     try:
         numbers = [float(number) for number in text.split()]
     except ValueError:

@@ -1,11 +1,11 @@
 """Compiled loops over poses and postures: coordinates, forward and inverse kinematics, moves.
 
-Each goes over all runs in one call, and treats every pose by itself: others of the same call do not
-change a bit of its result. They stand in one file, since Numba's cache notices changes of the file
-of the function that is called, but not of those that it calls.
+Each function handles all runs in one call, and computes every pose independently: its result does
+not depend on other poses in the call, to the last bit. All functions are in one file because
+Numba's cache checks only the file of the called function for changes, not the files of others.
 
 A pose is three rows of a homogeneous matrix. Every joint turns about, or slides along, the z axis
-of its frame: `recalib.nominal.chain` turns the frames of an arm so.
+of its frame: `recalib.nominal.chain` rotates an arm's frames accordingly.
 """
 
 from typing import Any, NamedTuple
@@ -16,10 +16,10 @@ from recalib.numerics.compiled import compiled, inner
 
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of the controller's tolerance
 STEPS = 25
-SMALL = 1e-6  # m, rad: a turn whose sine is less is none, or half a turn
-LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
-SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
-TRUSTED = 1.5  # coordinates up to which a start polynomial serves: commands lie a little outside
+SMALL = 1e-6  # m, rad: a rotation with a smaller sine is about 0 or 180 degrees
+LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch on which it starts
+SINGULAR = 1e9  # rad: a longer step comes from a singular Jacobian
+TRUSTED = 1.5  # coordinates; up to here the start polynomial is used, as commands exceed 1 slightly
 
 
 Plain = tuple[Any, ...]  # the fields of one of the classes below
@@ -29,9 +29,9 @@ class Arms(NamedTuple):
     """Serial arms of n joints, side by side; `recalib.nominal.chain` makes them.
 
     Attributes:
-        placements: (arm, n + 1, 3, 4) of each joint in the frame of the one before it, and of the
-            tool in the last joint's frame: turns, and translations [m].
-        slides: (arm, n) whether a joint slides along its z axis; else it turns about it.
+        placements: (arm, n + 1, 3, 4) poses [m] of each joint in the frame of the previous joint,
+            and of the tool in the last joint's frame.
+        slides: (arm, n) whether a joint slides along its z axis; otherwise it turns about it.
     """
 
     placements: np.ndarray
@@ -47,7 +47,7 @@ class Region(NamedTuple):
 
 
 class Polynomial(NamedTuple):
-    """Of `ControllerArrays`, the polynomial from which inverse kinematics starts."""
+    """The start polynomial of inverse kinematics; see `ControllerArrays`."""
 
     shorter: np.ndarray
     last: np.ndarray
@@ -55,13 +55,13 @@ class Polynomial(NamedTuple):
 
 
 class ControllerArrays(NamedTuple):
-    """A controller: the nominal arm, its workspace, and where inverse kinematics starts.
+    """A controller: the nominal arm, its workspace, and the start polynomial.
 
     Attributes:
-        placements, slides: of `Arms`.
-        centre, half_ranges, vectors: of `Region`.
+        placements, slides: see `Arms`.
+        centre, half_ranges, vectors: see `Region`.
         shorter, last: (F,) the monomials of the start polynomial; see `recalib.numerics.monomials`.
-        weights: (F, n) of them, for joint angles [rad].
+        weights: (F, n) coefficients of the monomials, for joint angles [rad].
         lower, upper: (n,) joint limits [rad].
     """
 
@@ -90,7 +90,7 @@ def poses_at(coordinates: np.ndarray, region: Plain) -> np.ndarray:
 
 @compiled
 def coordinates_of(poses: np.ndarray, region: Plain) -> np.ndarray:
-    """Coordinates (n, 6) in a workspace of poses (n, 4, 4) [m]."""
+    """Workspace coordinates (n, 6) of poses (n, 4, 4) [m]."""
     box, coordinates, relative = Region(*region), np.empty((len(poses), 6)), np.empty((3, 3))
     for index in range(len(poses)):
         _write_coordinates(poses[index], box, relative, coordinates[index])
@@ -99,7 +99,7 @@ def coordinates_of(poses: np.ndarray, region: Plain) -> np.ndarray:
 
 @compiled
 def distances(achieved: np.ndarray, desired: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distances (n,) [m] and angles of turn (n,) [rad] between poses (n, 4, 4)."""
+    """Distances (n,) [m] and rotation angles (n,) [rad] between poses (n, 4, 4)."""
     lengths, angles = np.empty(len(achieved)), np.empty(len(achieved))
     for index in range(len(achieved)):
         one, other = achieved[index], desired[index]
@@ -121,7 +121,7 @@ def distances(achieved: np.ndarray, desired: np.ndarray) -> tuple[np.ndarray, np
 def forward(chain: Plain, angles: np.ndarray) -> np.ndarray:
     """Poses (run, posture, 4, 4) of the tools [m] at joint angles (run, posture, n) [rad].
 
-    Of one arm for each run, or of one for all.
+    There is one arm for each run, or one arm for all runs.
     """
     arms, (count, postures, joints) = Arms(*chain), angles.shape
     poses = np.zeros((count, postures, 4, 4))
@@ -159,14 +159,14 @@ def targets(
     upper: np.ndarray,
     commands: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Joint angles (n, joint) [rad] with which a controller answers commands (n, 6).
+    """Joint angles (n, joint) [rad] that a controller chooses for commands (n, 6).
 
-    Also the errors (n,) of their poses [m, rad], and whether they lie within the limits (n,).
+    Also returns the errors (n,) of their poses [m, rad], and whether they are within limits (n,).
 
     Args:
-        placements, ..., upper: the fields of `ControllerArrays`, one by one: a call unpacks them
-            three times as fast so, which is half of the time of few moves.
-        commands: in coordinates.
+        placements, ..., upper: the fields of `ControllerArrays`, as separate arguments: Numba
+            unpacks them three times as fast, which halves the time of a few moves.
+        commands: workspace coordinates.
     """
     arms, box = Arms(placements, slides), Region(centre, half_ranges, vectors)
     start = Polynomial(shorter, last, weights)
@@ -198,14 +198,14 @@ def move(
     commands: np.ndarray,
     refused: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where commands take damaged arms that stand at the angles with which a controller answers.
+    """The poses of damaged arms at the joint angles that a controller chooses for commands.
 
     Args:
-        placements, ..., upper: as of `targets`.
-        damaged_placements, damaged_slides: of `Arms`, one for each run, or one for all.
-        homes: (arm, 6) where each stands after a refused move, in coordinates.
+        placements, ..., upper: as in `targets`.
+        damaged_placements, damaged_slides: fields of `Arms`, one arm for each run or for all runs.
+        homes: (arm, 6) coordinates of each arm after a refused move.
         commands: (run, move, 6) coordinates.
-        refused: (run,) how many commands were refused; it is counted on.
+        refused: (run,) number of refused commands so far; updated in place.
 
     Returns the achieved poses (run, move, 6) in coordinates, and whether each command was executed
     (run, move).
@@ -233,7 +233,7 @@ def move(
 
 @inner
 def _room(start: Polynomial) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Where `_answer` works: monomials, coordinates, a relative turn and a pose."""
+    """Work arrays of `_answer`: monomials, coordinates, a relative rotation and a pose."""
     return np.empty(len(start.last)), np.empty(6), np.empty((3, 3)), np.empty((3, 4))
 
 
@@ -247,18 +247,18 @@ def _answer(
     scratch: tuple[np.ndarray, ...],
     angles: np.ndarray,
 ) -> float:
-    """Write the joint angles (n,) for a command, from the start polynomial; returns their error."""
+    """Write the joint angles (n,) for a command; return their error."""
     products, point, relative, pose = room
     _write_pose(command, box, relative, pose)
     _copy(command, point)
     beyond = far = False
     for number in range(6):
         far |= number >= 3 and abs(point[number] * box.half_ranges[number]) > np.pi / 2
-    if far:  # a turn of more than a right angle may be a smaller one the other way
+    if far:  # a rotation beyond 90 degrees may equal one with smaller coordinates
         _write_coordinates(pose, box, relative, point)
     for number in range(6):
         beyond |= abs(point[number]) > TRUSTED
-    if beyond:  # farther out a polynomial means nothing: the nearest pose inside has to do
+    if beyond:  # the polynomial is useless so far out: start from the nearest pose inside instead
         for number in range(6):
             point[number] = min(max(point[number], -1.0), 1.0)
     products[0] = 1
@@ -288,7 +288,7 @@ def _stand(
     origins: np.ndarray,
     axes: np.ndarray,
 ) -> None:
-    """Write the tool's pose (3 or 4, 4), and where the joints lie and point, both (n, 3)."""
+    """Write the tool's pose (3 or 4, 4), and the joints' origins and axes, both (n, 3)."""
     placements, slides, joints = arms.placements[arm], arms.slides[arm], len(angles)
     for row in range(3):
         for column in range(4):
@@ -314,7 +314,7 @@ def _stand(
 def _write_jacobian(
     arms: Arms, pose: np.ndarray, origins: np.ndarray, axes: np.ndarray, jacobian: np.ndarray
 ) -> None:
-    """Write how the tool moves (6, n) with joints at origins and along axes from `_stand`."""
+    """Write the tool's Jacobian (6, n), given the joints' origins and axes from `_stand`."""
     for joint in range(len(origins)):
         for row in range(3):
             if arms.slides[0, joint]:
@@ -329,7 +329,7 @@ def _write_jacobian(
 
 @inner
 def _scratch(joints: int) -> tuple[np.ndarray, ...]:
-    """Where `_newton` works: angles, a pose, origins, axes, a Jacobian, a residual and a step."""
+    """Work arrays of `_newton`: angles, pose, origins, axes, Jacobian, residual and step."""
     return (
         np.empty(joints),
         np.empty((3, 4)),
@@ -345,10 +345,10 @@ def _scratch(joints: int) -> tuple[np.ndarray, ...]:
 def _newton(
     arms: Arms, goal: np.ndarray, found: np.ndarray, scratch: tuple[np.ndarray, ...]
 ) -> float:
-    """Improve joint angles (n,) in place until they take the tool to a goal; returns their error.
+    """Improve joint angles (n,) in place until they take the tool to a goal; return their error.
 
-    The error is the largest number of the residual in m and rad: infinite where the goal or the
-    start holds nan.
+    The error is the largest component of the residual, in m and rad. It is infinite if the goal or
+    the initial angles contain nan.
     """
     angles, pose, origins, axes, jacobian, residual, step = scratch
     joints, error = len(found), np.inf
@@ -381,7 +381,7 @@ def _copy(vector: np.ndarray, to: np.ndarray) -> None:
 
 @inner
 def _shortest_step(jacobian: np.ndarray, residual: np.ndarray) -> np.ndarray:
-    """Of the steps (n,) that leave least, the shortest; for n > 6, J' inv(J J') m."""
+    """The shortest of the steps (n,) that minimise the residual r; for n > 6, J' inv(J J') r."""
     if jacobian.shape[1] > 6:
         square, vector = np.zeros((6, 6)), residual.copy()
         for row in range(6):
@@ -399,11 +399,11 @@ def _shortest_step(jacobian: np.ndarray, residual: np.ndarray) -> np.ndarray:
 
 @inner
 def _residual(pose: np.ndarray, goal: np.ndarray, residual: np.ndarray) -> float:
-    """Write what takes a pose to a goal (6,), along the base's axes; returns its largest number.
+    """Write the motion (6,) from a pose to a goal, along the base's axes; return its largest part.
 
-    The translation [m], and the turn as its axis times the sine of its angle [rad], which is the
-    angle itself where Newton's method ends. The sine of half a turn is zero as well: infinity is
-    returned for it.
+    The motion is the translation [m], and the rotation axis times the sine of the angle [rad]. This
+    equals the angle near the solution. The sine of 180 degrees is zero, too: then the function
+    returns infinity.
     """
     for row in range(3):
         residual[row] = goal[row, 3] - pose[row, 3]
@@ -420,7 +420,7 @@ def _residual(pose: np.ndarray, goal: np.ndarray, residual: np.ndarray) -> float
 
 @inner
 def _is_half_a_turn(pose: np.ndarray, goal: np.ndarray) -> bool:
-    """Whether a turn from pose to goal that is none or half a one is half a one."""
+    """Whether the rotation from pose to goal, which is about 0 or 180 degrees, is about 180."""
     trace = 0.0
     for row in range(3):
         for column in range(3):
@@ -430,7 +430,7 @@ def _is_half_a_turn(pose: np.ndarray, goal: np.ndarray) -> bool:
 
 @inner
 def _longest(vector: np.ndarray) -> float:
-    """Its largest number; nan if there is one."""
+    """The largest absolute value in a vector; nan if it contains nan."""
     longest = 0.0
     for number in vector:
         if not abs(number) <= longest:
@@ -442,7 +442,7 @@ def _longest(vector: np.ndarray) -> float:
 
 @inner
 def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
-    """Solve linear equations in place, and say whether they can be solved."""
+    """Solve linear equations in place; return whether there is a solution."""
     size = len(vector)
     for column in range(size):
         pivot = column
@@ -473,7 +473,7 @@ def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
 def _write_pose(
     coordinates: np.ndarray, box: Region, relative: np.ndarray, pose: np.ndarray
 ) -> None:
-    """Write the pose at coordinates (6,); `relative` (3, 3) is room for a turn."""
+    """Write the pose at coordinates (6,); `relative` (3, 3) is a work array for a rotation."""
     half = box.half_ranges
     one, two, three = coordinates[3] * half[3], coordinates[4] * half[4], coordinates[5] * half[5]
     if box.vectors:
@@ -489,7 +489,7 @@ def _write_pose(
 def _write_coordinates(
     pose: np.ndarray, box: Region, relative: np.ndarray, coordinates: np.ndarray
 ) -> None:
-    """Write the coordinates (6,) of a pose; `relative` (3, 3) is room for a turn."""
+    """Write the coordinates (6,) of a pose; `relative` (3, 3) is a work array for a rotation."""
     for row in range(3):
         coordinates[row] = pose[row, 3] - box.centre[row, 3]
     _write_product(box.centre.T, pose, relative)
@@ -505,7 +505,7 @@ def _write_coordinates(
 
 @inner
 def _write_product(one: np.ndarray, other: np.ndarray, product: np.ndarray) -> None:
-    """Of two orientations, each the first three rows and columns."""
+    """Write the product of two rotations, the first three rows and columns of their arrays."""
     for row in range(3):
         for column in range(3):
             product[row, column] = (
@@ -522,7 +522,7 @@ def _write_row(row: np.ndarray, x: float, y: float, z: float) -> None:
 
 @inner
 def _write_turn_by_angles(roll: float, pitch: float, yaw: float, turn: np.ndarray) -> None:
-    """Rz(yaw) Ry(pitch) Rx(roll)."""
+    """Write the rotation Rz(yaw) Ry(pitch) Rx(roll)."""
     a, b, c = np.cos(roll), np.cos(pitch), np.cos(yaw)
     d, e, f = np.sin(roll), np.sin(pitch), np.sin(yaw)
     _write_row(turn[0], c * b, c * e * d - f * a, c * e * a + f * d)
@@ -532,7 +532,7 @@ def _write_turn_by_angles(roll: float, pitch: float, yaw: float, turn: np.ndarra
 
 @inner
 def _write_turn_by_vector(x: float, y: float, z: float, turn: np.ndarray) -> None:
-    """exp([r]), by Rodrigues' formula."""
+    """Write the rotation exp([r]), by Rodrigues' formula."""
     angle = np.sqrt(x * x + y * y + z * z)
     part = np.sin(angle) / angle if angle > 0 else 1.0
     half = np.sin(angle / 2) / (angle / 2) if angle > 0 else 1.0
@@ -544,7 +544,7 @@ def _write_turn_by_vector(x: float, y: float, z: float, turn: np.ndarray) -> Non
 
 @inner
 def _write_vector(turn: np.ndarray, vector: np.ndarray) -> None:
-    """Of exp([r]), by its quaternion: of four ways to it, one divides by no small number."""
+    """Write r of exp([r]), by the quaternion formula (of four) that divides by no small number."""
     trace = turn[0, 0] + turn[1, 1] + turn[2, 2]
     first, largest = 3, trace
     for axis in range(3):

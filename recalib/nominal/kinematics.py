@@ -1,6 +1,6 @@
-"""Forward kinematics, Jacobians and gravity of one arm for many joint angles, by Pinocchio.
+"""Forward kinematics, Jacobians and gravity torques of one arm for many postures, by Pinocchio.
 
-If a joint slides, its joint angle is a length [m], its torque a force [N].
+The "angle" of a sliding joint is a length [m], its "torque" a force [N].
 """
 
 from dataclasses import dataclass
@@ -16,19 +16,19 @@ from recalib.files.quantities import ANGLE, LENGTH
 
 
 def tool_frame(model: pin.Model, tool: str) -> int:
-    """Index of the frame of the link `tool`, which may share its name with a joint."""
+    """Index of the frame of the link `tool`; a joint may have the same name."""
     return model.getFrameId(tool, pin.FrameType.BODY)
 
 
 @dataclass(frozen=True)
 class Coupling:
-    """The coordinates of all joints by those that a controller reports: some may share a motor.
+    """The map from reported joint coordinates to all joint coordinates: joints may share a motor.
 
     Attributes:
-        columns: names of the joints that a controller reports.
-        slides: (column,) whether each is a length.
-        gains: (joint, column) by which joints follow: rad or m for each rad or m.
-        shifts: (joint,) rad, m where joints stand if all columns are zero.
+        columns: names of the joints that the controller reports.
+        slides: (column,) whether each of them slides.
+        gains: (joint, column) derivatives of joint coordinates by reported ones.
+        shifts: (joint,) rad, m, joint coordinates if all reported coordinates are zero.
         limits: (2, column) rad, m, lower and upper.
     """
 
@@ -39,9 +39,9 @@ class Coupling:
     limits: np.ndarray
 
     def given(self, name: str, coordinates: ArrayLike, *shapes: Shape) -> np.ndarray:
-        """Coordinates (..., columns) [rad, m] that a caller gives, in one of these shapes.
+        """Check a caller's coordinates (..., columns) [rad, m] against several possible shapes.
 
-        Raises InvalidSetting: another shape, NaN, or a number too large for its unit.
+        Raises InvalidSetting for another shape, NaN, or a number too large for its unit.
         """
         array = array_of(name, coordinates, *((*shape, len(self.columns)) for shape in shapes))
         for kind, chosen in ((ANGLE, ~self.slides), (LENGTH, self.slides)):
@@ -49,11 +49,11 @@ class Coupling:
         return array
 
     def joints(self, columns: np.ndarray) -> np.ndarray:
-        """Coordinates (n, joints) of all joints from those reported (n, columns)."""
+        """Coordinates (n, joints) of all joints, from reported coordinates (n, columns)."""
         return columns @ self.gains.T + self.shifts
 
     def reported(self, joints: np.ndarray) -> np.ndarray:
-        """Coordinates (n, columns) that are reported, from all joints' (n, joints)."""
+        """Reported coordinates (n, columns), from those of all joints (n, joints)."""
         return (joints - self.shifts) @ self._inverse.T
 
     @cached_property
@@ -65,10 +65,10 @@ class Arm:
     """A serial arm: a Pinocchio model and the tool frame at its end.
 
     Args:
-        model: the model, a chain of joints that turn or slide about or along one axis.
+        model: the model, a chain of joints that turn about or slide along one axis.
         tool: name of the link that is the tool.
-        base: name of the link in whose frame poses are; it is the frame of the model's world.
-        coupling: of joints that follow others; None if each joint has a motor.
+        base: name of the link whose frame is the base frame; it equals the model's world frame.
+        coupling: the coupling, if joints follow others; None if each joint has its own motor.
     """
 
     def __init__(self, model: pin.Model, tool: str, base: str, coupling: Coupling | None = None):
@@ -82,11 +82,11 @@ class Arm:
 
     @cached_property
     def coupling(self) -> Coupling:
-        """From the joints that a controller reports to all joints."""
+        """The coupling from reported joints to all joints; the identity if each has a motor."""
         limits = np.array([self.model.lowerPositionLimit, self.model.upperPositionLimit])
-        each, count = np.eye(len(self.joints)), len(self.joints)
-        alone = Coupling(self.joints, self.slides, each, np.zeros(count), limits)
-        return self._coupling or alone
+        gains, count = np.eye(len(self.joints)), len(self.joints)
+        identity = Coupling(self.joints, self.slides, gains, np.zeros(count), limits)
+        return self._coupling or identity
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -95,9 +95,9 @@ class Arm:
 
     @property
     def links(self) -> dict[str, int]:
-        """Each link, with the joint that moves it (0: the base).
+        """Index of the joint that moves each link, by the link's name; 0 for the base.
 
-        A link ends at the next joint, the last one at the tool.
+        A link ends at the next joint; the last link ends at the tool.
         """
         links: dict[str, int] = {}
         for frame in self.model.frames:
@@ -108,7 +108,7 @@ class Arm:
 
     @cached_property
     def slides(self) -> np.ndarray:
-        """(joint,) whether a joint slides along its axis; else it turns about it."""
+        """(joint,) whether a joint slides along its axis; otherwise it turns about it."""
         return np.logical_not(self._motions[:, 3:].any(axis=1))
 
     @cached_property
@@ -118,24 +118,24 @@ class Arm:
 
     @cached_property
     def _motions(self) -> np.ndarray:
-        """(joint, 6) how each moves, along and about the axes of its own frame."""
+        """(joint, 6) linear and angular motion of each joint in its own frame."""
         model, data = self.model, self.model.createData()
         pin.computeJointJacobians(model, data, pin.neutral(model))
         jacobians = [
             pin.getJointJacobian(model, data, j, pin.LOCAL) for j in range(1, model.njoints)
         ]
-        return np.array([each.reshape(6, -1)[:, joint] for joint, each in enumerate(jacobians)])
+        return np.array([full.reshape(6, -1)[:, joint] for joint, full in enumerate(jacobians)])
 
     @property
     def massless(self) -> bool:
-        """Whether its links lack masses, so that the effect of gravity is unknown."""
+        """Whether the links have no masses, so that the effect of gravity is unknown."""
         return not any(inertia.mass for inertia in list(self.model.inertias)[1:])
 
     def forward(self, angles: ArrayLike) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m] at joint angles (n, joint) [rad].
 
-        Or one pose (4, 4) for one posture (joint,). Raises InvalidSetting, as the methods below:
-        another shape.
+        One posture (joint,) gives one pose (4, 4). This method and those below raise InvalidSetting
+        for another shape.
         """
         postures, shape = self._postures(angles)
         poses = []
@@ -145,34 +145,34 @@ class Arm:
         return np.array(poses).reshape(*shape, 4, 4)
 
     def _postures(self, angles: ArrayLike) -> tuple[np.ndarray, tuple[int, ...]]:
-        """Joint angles (n, joint), and the shape of the results: (n,), or () of one posture."""
+        """Joint angles (n, joint), and the shape of the results: (n,), or () for one posture."""
         count = self.model.nv
         array = array_of("joint angles", angles, ("n", count), (count,))
         return array.reshape(-1, count), array.shape[:-1]
 
     def skeleton(self, angles: ArrayLike) -> np.ndarray:
-        """Base, joints and tool (n, joint + 2, 3) [m] at joint angles (n, joint) [rad]."""
+        """Positions (n, joint + 2, 3) [m] of base, joints and tool at angles (n, joint) [rad]."""
         postures, shape = self._postures(angles)
         points = np.zeros((len(postures), self.model.njoints + 1, 3))
         points[:, -1] = self.forward(postures)[:, :3, 3]
-        for own, q in zip(points, postures, strict=True):
+        for skeleton, q in zip(points, postures, strict=True):
             pin.forwardKinematics(self.model, self._data, q)
-            own[1:-1] = [placement.translation for placement in list(self._data.oMi)[1:]]
+            skeleton[1:-1] = [placement.translation for placement in list(self._data.oMi)[1:]]
         return points.reshape(*shape, *points.shape[1:])
 
     def forward_and_jacobian(self, angles: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `forward`, and the tool's Jacobians (n, 6, joint).
+        """Poses (n, 4, 4) like `forward`, and the tool's Jacobians (n, 6, joint).
 
         A Jacobian maps joint velocities to the tool's linear [m/s] and angular [rad/s] velocity
         along the base's axes.
         """
         postures, shape = self._postures(angles)
-        moving = [self._moving(q) for q in postures]
-        poses, jacobians = (np.array([of_one[part] for of_one in moving]) for part in (0, 1))
+        pairs = [self._pose_and_jacobian(q) for q in postures]
+        poses, jacobians = (np.array([pair[part] for pair in pairs]) for part in (0, 1))
         return poses.reshape(*shape, 4, 4), jacobians.reshape(*shape, 6, self.model.nv)
 
-    def _moving(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The tool's pose (4, 4) and Jacobian in one posture, which Pinocchio's data hold then."""
+    def _pose_and_jacobian(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The tool's pose (4, 4) and Jacobian in one posture. Leaves Pinocchio's data in it."""
         model, data, axes = self.model, self._data, pin.LOCAL_WORLD_ALIGNED
         jacobian = pin.computeFrameJacobian(model, data, q, self._frame, axes)
         return pin.updateFramePlacement(model, data, self._frame).homogeneous, jacobian
@@ -180,16 +180,16 @@ class Arm:
     def forward_and_all_jacobians(
         self, angles: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Poses and Jacobians as `forward_and_jacobian`, and those by the placements.
+        """Poses and Jacobians like `forward_and_jacobian`, and Jacobians of the placements.
 
-        These are (n, 6, (joint + 1) * 6). A placement's motion [m, rad] is along the axes of what
-        it places: each of the joints, and last the tool.
+        The latter (n, 6, (joint + 1) * 6) are derivatives by a motion [m, rad] of each joint's
+        placement, and last the tool's, along the axes of the placed frame.
         """
         poses, joints, placements = [], [], []
         for q in angles:
-            pose, by_joint = self._moving(q)
+            pose, by_joint = self._pose_and_jacobian(q)
             poses.append(pose)
-            joints.append(by_joint.reshape(6, -1))  # of one joint, too
+            joints.append(by_joint.reshape(6, -1))  # of a single joint, Pinocchio returns a vector
             regressor = pin.computeFrameKinematicRegressor(
                 self.model, self._data, self._frame, pin.LOCAL_WORLD_ALIGNED
             )

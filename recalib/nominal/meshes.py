@@ -1,4 +1,4 @@
-"""The meshes of a URDF: files of its own packages and folders, and no others."""
+"""The mesh files of a URDF, restricted to its own packages and folders."""
 
 import os
 from collections.abc import Iterator
@@ -15,15 +15,15 @@ PACKAGE = "package://"
 def with_own_meshes(
     source: bytes, urdf: Path, role: str = "visual", other: str = "collision"
 ) -> tuple[bytes, list[str]]:
-    """A URDF with the shapes of one role alone, whose meshes are named by where they lie.
+    """A URDF with only the shapes of one role, and with absolute paths of meshes.
 
-    It may name any file, so what lies elsewhere is left out, and so are textures.
+    A URDF can name any file, so files elsewhere are left out for safety, and so are textures.
 
     Args:
         source: the content of the URDF at `urdf`.
-        role, other: of shapes that stay, and of those that go.
+        role, other: the roles of shapes to retain and to remove.
 
-    Returns it in UTF-8, and the names of the meshes that were left out.
+    Returns the URDF in UTF-8, and the names of the meshes that were left out.
     """
     robot, left_out = parsed(source, urdf), []
     for link in robot.iter("link"):
@@ -45,14 +45,14 @@ def with_own_meshes(
 
 
 def mesh_files(urdf: Path) -> list[Path]:
-    """The files of all meshes that are drawn, in the order of the URDF."""
+    """The files of all visual meshes, in the order of the URDF."""
     meshes = parsed(urdf.read_bytes(), urdf).iterfind(".//visual//mesh")
     names = dict.fromkeys(mesh.get("filename", "") for mesh in meshes)
     return [file for name in names if (file := _find(name, urdf.resolve()))]
 
 
 def _find(name: str, urdf: Path) -> Path | None:
-    """The file of a mesh; None unless it lies, with all links followed, where it may."""
+    """The file of a mesh; None if, with symbolic links resolved, it is in no permitted folder."""
     package, _, path = name.removeprefix(PACKAGE).lstrip("/").partition("/")
     if name.startswith(PACKAGE):
         places = [(folder, folder / path) for folder in _packages(package, urdf)]
@@ -64,18 +64,18 @@ def _find(name: str, urdf: Path) -> Path | None:
             inside = file.is_relative_to(folder.resolve()) and file.suffix.lower() in KINDS
             if inside and file.is_file() and file.stat().st_size <= MOST:
                 return file
-    except (OSError, RuntimeError):  # a name that no file can have, a circle of links
+    except (OSError, RuntimeError):  # an impossible file name, or a loop of symbolic links
         pass
     return None
 
 
 def _home(urdf: Path) -> Path:
-    """The package that a URDF lies in, or else its folder."""
+    """The package that contains a URDF, or its folder if there is none."""
     return next((folder for folder in urdf.parents if _is_package(folder)), urdf.parent)
 
 
 def _packages(name: str, urdf: Path) -> Iterator[Path]:
-    """Where a package may be: about the URDF, beside it, or where ROS looks for it."""
+    """Possible folders of a package: around the URDF, next to it, and in ROS's search paths."""
     if name in ("", ".", ".."):
         return
     for folder in urdf.parents:

@@ -1,4 +1,4 @@
-"""Newton's method for inverse kinematics, given a function for poses and Jacobians."""
+"""Newton's method for inverse kinematics, given a function that returns poses and Jacobians."""
 
 from collections.abc import Callable
 
@@ -7,11 +7,11 @@ import numpy as np
 from recalib.nominal.kernels import LONGEST_STEP as LONGEST_STEP
 from recalib.nominal.kernels import SINGULAR
 
-# Of x, y and z the two others, in a circle.
+# The two other axes of x, y and z, in cyclic order.
 NEXT, LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 
-# From the groups (m,) that are asked for and their joint angles (m, n, joint) [rad] to the poses
-# (m, n, 4, 4) [m] of the tool and its Jacobians (m, n, 6, joint) there.
+# Takes indices of groups (m,) and their joint angles (m, n, joint) [rad]; returns the tool's poses
+# (m, n, 4, 4) [m] and Jacobians (m, n, 6, joint).
 Kinematics = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
@@ -20,33 +20,33 @@ def solve_groups(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Joint angles (group, n, joint) [rad] that take tools to goals, and their errors (group, n).
 
-    With more joints than a goal has numbers, each step is the shortest; with fewer, the one that
-    leaves least. A group is solved when all of its goals are; where one is not, its best angles are
-    kept. An error is the largest number of a residual; with fewer joints than numbers, its norm.
+    With more joints than components of a goal, each step is the shortest; with fewer, it minimises
+    the residual. A group is solved when all of its goals are solved; for an unsolved goal, the best
+    angles are returned. An error is the residual's largest component or, with fewer joints, norm.
 
     Args:
         goals: poses (group, n, 4, 4) or positions (group, n, 3) m.
-        start: (group, n, joint) rad nearby.
-        tolerance: of errors, in m and rad.
-        steps: at most so many.
+        start: (group, n, joint) rad, initial estimates.
+        tolerance: greatest accepted error, in m and rad.
+        steps: maximum number of steps.
     """
     found, error = start.copy(), np.full(start.shape[:2], np.inf)
     unsolved, angles, best, least = np.arange(len(goals)), start, found, error
     for _ in range(steps):
         reached, jacobians = kinematics(unsolved, angles)
         residual = _residual(reached, goals)
-        few = start.shape[-1] < residual.shape[-1]  # then the steps make squares least
+        few = start.shape[-1] < residual.shape[-1]  # then the steps minimise the sum of squares
         errors = np.linalg.norm(residual, axis=-1) if few else np.abs(residual).max(axis=-1)
         better = errors < least
         best = np.where(better[..., None], angles, best)
         least = np.where(better, errors, least)
-        goes_on = (least > tolerance).any(axis=1)
-        if not goes_on.any():
+        remaining = (least > tolerance).any(axis=1)
+        if not remaining.any():
             break
-        if not goes_on.all():
+        if not remaining.all():
             found[unsolved], error[unsolved] = best, least
             unsolved, goals, angles, best, least, jacobians, residual = (
-                array[goes_on]
+                array[remaining]
                 for array in (unsolved, goals, angles, best, least, jacobians, residual)
             )
         step = _solve_each(jacobians[..., : residual.shape[-1], :], residual)
@@ -58,11 +58,11 @@ def solve_groups(
 
 
 def _residual(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes the poses `start` (..., 3 or 4, 4) to `end`, along the base's axes.
+    """The motion (..., 3 or 6) from poses `start` (..., 3 or 4, 4) to `end`, along the base's axes.
 
-    The translation (..., 3) [m] and, unless `end` are positions (..., 3), the turn (..., 6) [rad]
-    as its axis times the sine of its angle, which is the angle itself where Newton's method ends.
-    Beyond a right angle it is the angle, or half a turn would count as none.
+    It is the translation [m] and, unless `end` are positions (..., 3), the rotation [rad]: its axis
+    times the sine of its angle, which equals the angle near the solution. Beyond 90 degrees the
+    angle itself is used, because the sine of 180 degrees is zero.
     """
     if end.ndim < start.ndim:
         return end - start[..., :3, 3]
@@ -72,19 +72,19 @@ def _residual(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     residual[..., 3:] = (between - between.swapaxes(-2, -1))[..., LAST, NEXT] / 2
     far = np.trace(between, axis1=-2, axis2=-1) < 1
     if far.any():
-        from scipy.spatial.transform import Rotation  # seldom needed: no start waits for it
+        from scipy.spatial.transform import Rotation  # rarely needed, and slow to import
 
         residual[far, 3:] = Rotation.from_matrix(between[far]).as_rotvec()
     return residual
 
 
 def _solve_each(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """The solutions (..., joint) of linear equations; of what has no or many the smallest."""
+    """The solutions (..., joint) of linear equations; if singular, by the pseudoinverse."""
     if matrices.shape[-1] != matrices.shape[-2]:
         return (np.linalg.pinv(matrices, rcond=1 / SINGULAR) @ vectors[..., None])[..., 0]
     try:
         solutions = np.linalg.solve(matrices, vectors[..., None])[..., 0]
-    except np.linalg.LinAlgError:  # one of them is exactly singular
+    except np.linalg.LinAlgError:  # at least one matrix is exactly singular
         solutions = np.full(vectors.shape, np.inf)
     longest = np.abs(solutions).max(axis=-1)
     if (singular := longest > SINGULAR).any():

@@ -1,10 +1,10 @@
-"""Pose coordinates of a workspace and their conversion to and from SE(3), and the two errors.
+"""Pose coordinates of a workspace, their conversion to and from SE(3), and errors of poses.
 
 A pose is a homogeneous matrix (4, 4) of the tool in the base frame, in metres. Its coordinates are
 a 6-vector u: the position (x, y, z) relative to the centre of the workspace along the base's axes,
-and three numbers for the orientation relative to the centre's: (roll, pitch, yaw) of
+and three numbers for the orientation relative to that of the centre: (roll, pitch, yaw) of
 R = R_centre Rz(yaw) Ry(pitch) Rx(roll), or a rotation vector r of R = R_centre exp([r]). They are
-divided by the half-ranges of the workspace, so that the workspace is the box [-1, 1]^6 and no norm
+divided by the half-ranges of the workspace. So the workspace is the box [-1, 1]^6, and no norm
 mixes metres with radians.
 """
 
@@ -17,8 +17,8 @@ from recalib.arrays import array_of, check_rotations, ending
 from recalib.errors import InvalidSetting, check_name
 from recalib.nominal import kernels
 
-COORDINATES = "roll_pitch_yaw", "rotation_vector"  # of orientations
-ERRORS = "norm", "coordinates"  # of a pose
+COORDINATES = "roll_pitch_yaw", "rotation_vector"  # coordinates of orientations
+ERRORS = "norm", "coordinates"  # definitions of a pose's errors
 POSITION, ORIENTATION = slice(0, 3), slice(3, 6)
 
 
@@ -30,10 +30,10 @@ class Workspace:
         centre: pose (4, 4) of the box's centre in the base frame, lengths in m.
         half_ranges: (6,) half of the box's size along each coordinate: three lengths in m, three
             angles in rad.
-        coordinates: of orientations: roll_pitch_yaw or rotation_vector.
+        coordinates: coordinates of orientations: roll_pitch_yaw or rotation_vector.
 
-    Raises UnknownName, and InvalidSetting: another shape or no pose, no size, or such a size that
-    orientations in it have several coordinates.
+    Raises UnknownName, and InvalidSetting for another shape, a centre that is no pose, a size that
+    is not positive, or a size so large that the coordinates of orientations are ambiguous.
     """
 
     centre: np.ndarray
@@ -53,21 +53,21 @@ class Workspace:
         else:
             unique = pitch < np.pi / 2 and max(roll, yaw) < np.pi
             most = "a pitch below 90 deg, roll and yaw below 180 deg"
-        if not unique:  # other coordinates would come back than were commanded
+        if not unique:  # measured coordinates could differ from commanded ones for the same pose
             found = [round(turn, 3) for turn in np.degrees(turns).tolist()]
             raise InvalidSetting("half_ranges of orientation", found, most)
 
     def to_poses(self, coordinates: np.ndarray) -> np.ndarray:
-        """Poses (..., 4, 4) at the coordinates (..., 6). Raises InvalidSetting: another shape."""
+        """Poses (..., 4, 4) at coordinates (..., 6). Raises InvalidSetting for another shape."""
         coordinates = ending("coordinates", coordinates, 6)
         poses = kernels.poses_at(coordinates.reshape(-1, 6), self.region)
         return poses.reshape(*coordinates.shape[:-1], 4, 4)
 
     def to_coordinates(self, poses: np.ndarray) -> np.ndarray:
-        """Coordinates (..., 6) of the poses (..., 4, 4).
+        """Coordinates (..., 6) of poses (..., 4, 4).
 
-        From the centre's orientation, a pitch must stay below 90 degrees, a turn below 180.
-        Raises InvalidSetting: another shape.
+        Relative to the centre's orientation, a pitch must be below 90 degrees, a rotation vector
+        below 180 degrees. Raises InvalidSetting for another shape.
         """
         poses = ending("poses", poses, 4, 4)
         numbers = kernels.coordinates_of(poses.reshape(-1, 4, 4), self.region)
@@ -75,7 +75,7 @@ class Workspace:
 
     @cached_property
     def region(self) -> tuple[np.ndarray, np.ndarray, bool]:
-        """The workspace as compiled loops read it: see `recalib.nominal.kernels.Region`."""
+        """The workspace for compiled loops: see `recalib.nominal.kernels.Region`."""
         return self.centre, self.half_ranges, self.coordinates == "rotation_vector"
 
     def sample(self, generator: np.random.Generator, *shape: int) -> np.ndarray:
@@ -89,7 +89,7 @@ def position_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
 
 
 def orientation_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
-    """Angle (...) in rad of the turn from one orientation to the other, of poses (..., 4, 4)."""
+    """Angle (...) in rad of the rotation between the orientations of poses (..., 4, 4)."""
     return _distances(achieved, desired)[1]
 
 
@@ -106,8 +106,8 @@ def pose_errors(
     """Position [m] and orientation errors [rad], each (...), of poses (..., 4, 4).
 
     Args:
-        error: "norm": Euclidean distance, and angle of the turn; "coordinates": means of the
-            absolute errors of the three coordinates of each.
+        error: "norm": Euclidean distance and rotation angle; "coordinates": mean absolute error
+            of the three coordinates of position, and of orientation.
 
     Raises UnknownName.
     """

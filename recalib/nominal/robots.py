@@ -18,13 +18,13 @@ from recalib.nominal.poses import Workspace
 
 @dataclass(frozen=True)
 class Robot:
-    """A nominal robot as its manufacturer describes it.
+    """A nominal robot, as its manufacturer describes it.
 
     Attributes:
-        name: what people call it.
-        urdf: the file that describes it.
-        arm: its kinematics, with the joints that do not move the tool locked.
-        home: (joint,) joint angles in rad (m where one slides) at the centre of the workspace.
+        name: display name.
+        urdf: the file that describes the robot.
+        arm: its kinematics; joints that do not move the tool are locked.
+        home: (joint,) joint angles in rad (m if a joint slides) at the centre of the workspace.
         lower, upper: (joint,) joint limits in rad (m).
         workspace: centred on the home pose.
     """
@@ -44,7 +44,7 @@ class Robot:
 
     @property
     def links(self) -> dict[str, int]:
-        """Each link, with the joint that moves it (0: the base)."""
+        """Index of the joint that moves each link, by the link's name; 0 for the base."""
         return self.arm.links
 
     @property
@@ -54,26 +54,26 @@ class Robot:
 
 
 def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
-    """A joint coordinate [rad], or [m] if the joint slides, for people."""
+    """A joint coordinate [rad], or [m] if the joint slides, as text in degrees or mm."""
     return (
         f"{1e3 * coordinate:{digits}} mm" if slides else f"{math.degrees(coordinate):{digits}} deg"
     )
 
 
 def link_end(model: pin.Model, tool: str, joint: int) -> pin.SE3:
-    """Where the link after `joint` ends in its frame [m]; to change it is to change the model."""
+    """The end of the link after `joint`, in its frame [m]. Changing it changes the model."""
     if joint < model.njoints - 1:
         return model.jointPlacements[joint + 1]
     return model.frames[tool_frame(model, tool)].placement
 
 
 def _end(arm: Arm) -> pin.SE3:
-    """The tool's frame in that of the last joint [m]; to change it is to change the model."""
+    """The tool's pose in the last joint's frame [m]. Changing it changes the model."""
     return link_end(arm.model, arm.tool, arm.model.njoints - 1)
 
 
 def _outward(arm: Arm) -> np.ndarray:
-    """Unit vector (3,) along the last joint's axis, to the tool: whose axes differ by URDF."""
+    """Unit vector (3,) along the last joint's axis, towards the tool: URDFs define either sign."""
     axis = arm.axes[-1]
     return math.copysign(1, _end(arm).translation @ axis) * axis
 
@@ -94,18 +94,18 @@ def load_robot(
     Args:
         urdf: a path, or a name: see `find_urdf`.
         tool: name of the link whose frame is the pose.
-        home: rad by joint (m where one slides), at the centre of the workspace.
+        home: rad (m if a joint slides) by joint, at the centre of the workspace.
         position_range: (3,) m, full sizes of the workspace along the base's axes.
-        orientation_range: (3,) rad, its full ranges of roll, pitch and yaw, or of rotation vectors.
+        orientation_range: (3,) rad, full ranges of roll, pitch and yaw, or of rotation vectors.
         limits: lowest and highest angle [rad] (or length [m]) by joint, in place of the URDF's.
         name: display name; default: the file's name.
-        coordinates: of orientations; see `Workspace`.
-        beyond: m, by which a rigid tool goes on outwards from the tool link, along the last joint's
-            axis.
+        coordinates: coordinates of orientations; see `Workspace`.
+        beyond: m, length of a rigid tool that extends outwards from the tool link, along the last
+            joint's axis.
 
     Raises UnknownName (URDF, tool link, joint, coordinates), UnsuitableRobot (see `load_arm`), and
     InvalidSetting (a joint without a home, a home beyond a joint's limits, a workspace without
-    size, or with orientations of several coordinates).
+    size, or with ambiguous coordinates of orientations).
     """
     path, limits = find_urdf(urdf), limits or {}
     arm = load_arm(path, tool)

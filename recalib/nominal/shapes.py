@@ -1,4 +1,4 @@
-"""The shapes of an arm's links, by which it may touch itself or the floor."""
+"""The collision shapes of an arm's links."""
 
 from os import PathLike
 from xml.etree import ElementTree
@@ -12,13 +12,13 @@ from recalib.nominal.meshes import with_own_meshes
 
 
 def load_shapes(arm: Arm, urdf: str | PathLike[str]) -> tuple[pin.GeometryModel, list[str]]:
-    """The collision shapes in a URDF, each carried by the joint of `arm` that carries its link.
+    """The collision shapes in a URDF, each attached to the joint of `arm` that carries its link.
 
     Args:
-        arm: from this URDF.
+        arm: an arm from this URDF.
         urdf: see `find_urdf`.
 
-    Returns them, and the names of shapes that cannot be read: mesh files, or links.
+    Returns the shapes, and the names of mesh files or links whose shapes cannot be read.
     """
     path = find_urdf(urdf)
     source, missing = with_own_meshes(read_file(path, MOST), path, "collision", "visual")
@@ -26,7 +26,7 @@ def load_shapes(arm: Arm, urdf: str | PathLike[str]) -> tuple[pin.GeometryModel,
     for link in parsed(source, path).iterfind("link"):
         name = link.attrib["name"]
         frame = arm.model.getFrameId(name, pin.FrameType.BODY)
-        if frame == len(arm.model.frames):  # it hangs on nothing
+        if frame == len(arm.model.frames):  # no root carries this link
             continue
         carrier = arm.model.frames[frame]
         for collision in link.findall("collision"):
@@ -44,7 +44,7 @@ def load_shapes(arm: Arm, urdf: str | PathLike[str]) -> tuple[pin.GeometryModel,
 
 
 def _shapes_of(collision: ElementTree.Element) -> list[pin.GeometryObject]:
-    """The shapes of one collision element, placed in its link. Raises ValueError, RuntimeError."""
+    """The shapes of one collision element, in its link's frame. Raises ValueError, RuntimeError."""
     robot = ElementTree.Element("robot", name="robot")
     ElementTree.SubElement(robot, "link", name="link").append(collision)
     text = ElementTree.tostring(robot, encoding="unicode")

@@ -1,4 +1,4 @@
-"""Drawing the setups of a design: their levels, and where their robots can work."""
+"""Draw the setups of the design: levels of all factors, and a feasible home for each robot."""
 
 import sys
 from collections.abc import Mapping, Sequence
@@ -20,9 +20,9 @@ from replication.scenarios.plants import Nominal, nominal_of, nominal_robot
 
 
 def design(study: Study) -> list[dict[str, Any]]:
-    """The rows of the table. Raises RecalibError: robots refuse too many.
+    """The rows of the design's table. Raises RecalibError if too many rows are infeasible.
 
-    Rows of the sequence that a robot refuses are left out and reported.
+    Rows of the sequence that a robot refuses are reported and skipped.
     """
     drawn: list[dict[str, Any]] = []
     for row in rows(study.campaign):
@@ -36,7 +36,7 @@ def design(study: Study) -> list[dict[str, Any]]:
 
 
 def draw(study: Study, number: int, row: Row) -> Setup:
-    """The setup of a row. Raises RecalibError: its robot cannot do it."""
+    """The setup of a row. Raises RecalibError if the robot cannot reach the workspace."""
     plan, levels, damage = study.campaign, row.levels, study.paper_damage
     random = generator(plan.seed, "setup", row.number)
     seed = int(random.integers(2**32))
@@ -44,7 +44,7 @@ def draw(study: Study, number: int, row: Row) -> Setup:
     controller, refused = _controller(nominal, levels["home"], plan.home_spread, random)
     robot, joints = controller.robot, list(nominal.robot.home)
     tests = robot.workspace.sample(random, damage.poses)
-    if row.number == 0:  # as the study itself has it, by its own poses
+    if row.number == 0:  # the reference study's own assignment, from its own poses
         entries = assign(nominal, damage, study.seed)[1]
     else:
         ways = ways_in(nominal, levels, study)
@@ -73,7 +73,7 @@ def draw(study: Study, number: int, row: Row) -> Setup:
 def _controller(
     nominal: Nominal, home: str, spread: float, random: np.random.Generator
 ) -> tuple[Controller, int]:
-    """The controller at its home, and how many homes it refused before."""
+    """The controller at the setup's home, and the number of homes that it refused before."""
     robot, greatest = nominal_robot(nominal), nominal.controller.greatest_condition
     if home == "configured":
         return Controller(robot, greatest), 0
@@ -81,7 +81,7 @@ def _controller(
 
 
 def ways_in(nominal: Nominal, levels: Mapping[str, Any], study: Study) -> Ways:
-    """All assignments of the paper's damage, whose lengths shrink with the workspace."""
+    """All assignments of the paper's damage, with lengths in proportion to the workspace."""
     damage, entry = study.paper_damage, nominal.robot
     scale = entry.workspace.scale_to(study.robots[study.robot].workspace)
     lengths = [scale * length for length in damage.shorten]

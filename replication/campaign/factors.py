@@ -1,4 +1,4 @@
-"""Which setups there are: for each, a level of every factor that the paper leaves open."""
+"""The design: for each setup, a level of every factor that the paper leaves open."""
 
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -8,7 +8,7 @@ from scipy.stats.qmc import LatinHypercube
 
 from replication.config.campaign import Campaign, Factors
 
-BATCHES = 3  # of rows; the second and third replace what a robot refuses
+BATCHES = 3  # of rows; the second and third replace rows that a robot refuses
 
 
 class Row(NamedTuple):
@@ -16,14 +16,14 @@ class Row(NamedTuple):
 
     number: int  # 0 is the reference study, with the first level of each factor
     levels: dict[str, Any]  # the level of each factor
-    share: float  # in [0, 1), where among all assignments of the damage one would be taken
+    share: float  # in [0, 1), selects one of all assignments of the damage, if the level is "any"
 
 
 def rows(plan: Campaign) -> Iterator[Row]:
-    """The rows of the design, and more to replace those that a robot refuses.
+    """The rows of the design, followed by replacements for rows that a robot refuses.
 
-    After the reference study a Latin hypercube: each factor has its levels equally often, and pairs
-    of factors hardly correlate.
+    The first row is the reference study. The rest is a Latin hypercube: the levels of each factor
+    occur equally often, and factors are almost uncorrelated.
     """
     factors = {name: getattr(plan.factors, name) for name in Factors.model_fields}
     yield Row(0, {name: levels[0] for name, levels in factors.items()}, 0.0)

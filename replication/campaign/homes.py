@@ -1,4 +1,4 @@
-"""Where the workspace of a robot may lie: random homes that its controller accepts."""
+"""Random homes of a robot at which its controller accepts the workspace."""
 
 from dataclasses import replace
 from itertools import product
@@ -11,18 +11,18 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
 
 CORNERS = np.array(list(product((-1.0, 1.0), repeat=6)))
-CANDIDATES = 30000  # the pickiest arm, with a longer tool, accepts one in ten thousand
+CANDIDATES = 30000  # the most restrictive arm, with a longer tool, accepts one home in 10,000
 
 
 def random_home(
     robot: Robot, spread: float, greatest_condition: float, random: np.random.Generator
 ) -> tuple[Controller, int]:
-    """The controller at the first of random homes that it accepts, and how many it refused.
+    """The controller at the first random home that it accepts, and the number of refused homes.
 
     Args:
-        spread: rad, how far from the robot's home each joint may be, inside its limits.
+        spread: rad, greatest distance of each joint from the robot's home, within its limits.
         greatest_condition: see `Controller`.
-        random: whole degrees are drawn from it.
+        random: the generator that draws homes, in whole degrees.
 
     Raises UnfitWorkspace.
     """
@@ -42,11 +42,11 @@ def random_home(
 
 
 def _reaches_corners(robot: Robot, chain: Chain) -> bool:
-    """Whether the arm reaches the corners of its workspace: most homes fail here, in no time."""
-    for some in (CORNERS[::9], CORNERS):
-        angles = np.tile(robot.home, (len(some), 1))
-        for part in (0.5, 1):  # so that every corner is on the branch of home
-            angles, residuals = chain.solve(robot.workspace.to_poses(part * some), angles)
+    """Whether the arm reaches the corners of its workspace: a fast test that most homes fail."""
+    for corners in (CORNERS[::9], CORNERS):
+        angles = np.tile(robot.home, (len(corners), 1))
+        for part in (0.5, 1):  # from home outwards: all corners on the same branch of solutions
+            angles, residuals = chain.solve(robot.workspace.to_poses(part * corners), angles)
             within = (robot.lower <= angles) & (angles <= robot.upper)
             if not (np.all(residuals <= TOLERANCE) and within.all()):
                 return False

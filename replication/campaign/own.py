@@ -1,4 +1,4 @@
-"""Settings that a study of one's own searches for, by the search of the campaign."""
+"""The search for settings in a study of one's own, with the campaign's method."""
 
 import math
 from pathlib import Path
@@ -15,9 +15,9 @@ from replication.training.tuned import rules_of, trained
 
 
 def tune(study: Study, learner: str, scenario: Path) -> pd.DataFrame:
-    """Rows of settings of a learner, one for each number of iterations that the study trains it.
+    """Rows of settings of a learner, one for each number of training iterations in the study.
 
-    It is tuned on the study's own scenario, whose file is `scenario`.
+    The learner is tuned on the study's main scenario, in the file `scenario`.
     """
     rules = rules_of(study.every_learner[learner])
     lengths = tuple(sorted(iterations for name, iterations in trained(study) if name == learner))
@@ -29,15 +29,15 @@ def tune(study: Study, learner: str, scenario: Path) -> pd.DataFrame:
 
 
 def reference(study: Study, scenario: Resolved) -> Setup:
-    """What the paper leaves open as the study itself decides it: the first level of each factor."""
+    """The study's own setup: the first level of each factor, and its own scenario."""
     factors = study.campaign.factors
     levels = {name: str(getattr(factors, name)[0]) for name in Factors.model_fields}
-    own = {"robot": study.robot, "coordinates": scenario.nominal.robot.workspace.coordinates}
+    overrides = {"robot": study.robot, "coordinates": scenario.nominal.robot.workspace.coordinates}
     return Setup(
         setup=0,
         row=0,
         seed=study.seed,
-        levels=levels | own,
+        levels=levels | overrides,
         home_deg=tuple(map(math.degrees, scenario.nominal.robot.home.values())),
         homes_refused=0,
         damage=scenario.damages,

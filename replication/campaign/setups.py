@@ -1,7 +1,7 @@
 """A setup: one way to decide all that the paper leaves open. Setup 0 is the reference study.
 
-The design says which setups there are, and where their robots can work. It is made before anything
-is measured, and kept in a table that people can read.
+The design lists all setups, with a feasible home for each robot. It is drawn before anything is
+measured, and stored in a readable table.
 """
 
 import csv
@@ -22,21 +22,21 @@ from replication.config.shipped import OUTCOMES
 from replication.config.study import Study, WorkspaceSettings
 from replication.scenarios.plants import Nominal, nominal_of
 
-DIGITS = 4  # of a length in m
-LINE = 1000  # characters: no list of damages is longer
+DIGITS = 4  # decimals of a length in m
+LINE = 1000  # characters, more than any list of damages has
 
 
 class Setup(Frozen):
     """A row of the design."""
 
     setup: int  # its number
-    row: int  # its number in the design's sequence; robots refused the rows between two setups
+    row: int  # its number in the design's sequence; skipped numbers are infeasible rows
     seed: int  # for searches, poses and trainings
     levels: dict[str, str]  # the level of each factor
-    # at the centre of the workspace, the joints in the order of the configuration
+    # joint angles at the centre of the workspace, in the order of the configuration
     home_deg: tuple[float, ...]
-    homes_refused: int  # how many the controller refused before this one
-    damage: tuple[Entry, ...]  # the paper's, as assigned to the robot
+    homes_refused: int  # number of random homes that the controller refused before this one
+    damage: tuple[Entry, ...]  # the paper's damage, as assigned to the robot
     # mean errors of the arm without correction
     position_error_cm: float
     orientation_error_deg: float
@@ -51,8 +51,8 @@ class Setup(Frozen):
         """Rules of a learner with the conventions of the setup.
 
         Args:
-            improved: whether it is of the improved system's family, whose rate falls linearly
-                (section 7), or of Ritter's.
+            improved: whether the learner is a variant of the improved system, whose rate falls
+                linearly (section 7), or of Ritter's.
         """
         levels, workspace = self.levels, self.nominal(study).robot.workspace
         return replace(
@@ -66,7 +66,7 @@ class Setup(Frozen):
         )
 
     def as_row(self) -> dict[str, Any]:
-        """Its columns in the table."""
+        """The setup as a row of the table."""
         row = {name: getattr(self, name) for name in type(self).model_fields}
         row["home_deg"] = " ".join(f"{angle:g}" for angle in self.home_deg)
         entries = [describe(entry) for entry in self.damage]
@@ -86,9 +86,9 @@ class Setup(Frozen):
 
 
 def planned(study: Study) -> list[tuple[int, int]]:
-    """Each setup and replicate whose outcomes are not shipped yet, in the order of measuring.
+    """Each setup and replicate whose outcomes are not in the table yet, in measuring order.
 
-    First the setups that are measured again and again, so that the table can be read early.
+    Setups with several replicates come first, so that the table is useful early.
     """
     plan = study.campaign
     measurements = [*product(range(plan.replicated), range(plan.replicates))]
@@ -108,7 +108,7 @@ def read_design(path: str | Path) -> list[Setup]:
 def robot_in(nominal: Nominal, levels: Mapping[str, Any], study: Study) -> Nominal:
     """A robot with the pose coordinates and the tool of a setup's levels.
 
-    A longer tool shrinks with the workspace.
+    The extra length of a longer tool is in proportion to the workspace.
     """
     entry, own = nominal.robot, study.robots[study.robot].workspace
     workspace = entry.workspace.model_copy(update={"coordinates": levels["coordinates"]})
@@ -119,11 +119,11 @@ def robot_in(nominal: Nominal, levels: Mapping[str, Any], study: Study) -> Nomin
 
 
 def width_units(widths: str, own: WorkspaceSettings) -> tuple[float, ...]:
-    """Six factors that turn workspace coordinates into the units of widths.
+    """Six factors that convert workspace coordinates into the units of widths.
 
-    One width is as many cm as degrees on the study's own robot, whose workspace is given: on
-    smaller ones, as all lengths, the centimetres shrink. The unit is the mean half-range of
-    position, so that ranges of widths mean what they do in half-ranges of the workspace.
+    `own` is the workspace of the study's own robot, on which a width spans as many centimetres as
+    degrees; on other robots lengths are in proportion to their workspaces. The unit is the mean
+    half-range of position, so that ranges of widths remain comparable with half-ranges.
     """
     if widths == "half_ranges":
         return (1.0,) * 6
@@ -132,7 +132,7 @@ def width_units(widths: str, own: WorkspaceSettings) -> tuple[float, ...]:
 
 
 def metric(norm: str, workspace: WorkspaceSettings) -> tuple[float, ...]:
-    """Six factors that turn workspace coordinates into the units of the norm in (3) and (8)."""
+    """Six factors that convert workspace coordinates into units of the norm in (3) and (8)."""
     lengths = [side / 2 for side in workspace.position]
     angles = [side / 2 for side in workspace.orientation]
     match norm:

@@ -1,7 +1,7 @@
-"""Puts measured replicates into the campaign's one table.
+"""Add measured replicates to the campaign's table.
 
-`python -m replication.campaign.ship FOLDER` takes those of a folder. What was measured again takes
-the place of what was there.
+`python -m replication.campaign.ship FOLDER` adds all replicates in a folder. They replace earlier
+measurements of the same replicates.
 """
 
 import sys
@@ -16,7 +16,7 @@ ROW = ["setup", "replicate", "variant", "iterations"]
 
 
 def ship(folder: Path, table: Path = Path(OUTCOMES)) -> None:
-    """Add the replicates of a folder, SETUP/REPLICATE.csv, to a table."""
+    """Add the replicates in a folder, files SETUP/REPLICATE.csv, to a table."""
     new = pd.concat(map(pd.read_csv, sorted(folder.glob("*/*.csv"))), ignore_index=True)
     if table.exists():
         old = pd.read_csv(table)

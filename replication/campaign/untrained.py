@@ -1,4 +1,4 @@
-"""What is measured in every setup without a learner: the mapping, and what the damage may do."""
+"""Measurements in every setup without a learner: coupling of the mapping, and initial errors."""
 
 from pathlib import Path
 
@@ -15,20 +15,20 @@ from replication.mapping.coupling import coupling
 from replication.scenarios.plants import nominal_controller
 from replication.training.measured import ERRORS, KINDS
 
-POSES = 0.95  # at which the coupling is at most so large
+POSES = 0.95  # quantile of the coupling over poses
 
 
 def untrained(study: Study, design: Path) -> pd.DataFrame:
     """A row for each setup.
 
-    Its columns are `position` and `orientation`: off-diagonal over diagonal blocks of the mapping's
-    Jacobian for such commands, at 95 % of poses; and the initial errors of the arm with an
-    assignment of the paper's damage that is drawn anew, lengths as on the study's own robot.
+    Columns `position` and `orientation` are the ratios of off-diagonal to diagonal blocks of the
+    mapping's Jacobian for these commands (95 % quantile over poses). The others are initial errors
+    with a new random assignment of the paper's damage, scaled to the study's own robot.
     """
-    rows, own = [], study.robots[study.robot].workspace
+    rows, reference = [], study.robots[study.robot].workspace
     for setup in read_design(design):
         nominal = setup.nominal(study)
-        controller, scale = nominal_controller(nominal), nominal.robot.workspace.scale_to(own)
+        controller, scale = nominal_controller(nominal), nominal.robot.workspace.scale_to(reference)
         random = generator(setup.seed, "untrained")
         desired = controller.robot.workspace.sample(random, study.mapping.poses)
         arm = apply(controller.robot, damages_among(setup.damage))

@@ -1,4 +1,4 @@
-"""The configuration of a study: its keys with meaning, unit and range, its reading and checking."""
+"""The configuration of a study: keys with meaning, unit and range; reading and checking it."""
 
 import lazy_loader
 

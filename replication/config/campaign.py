@@ -1,7 +1,7 @@
-"""What the paper leaves open, and the ways in which it could be decided.
+"""Factors: choices that the paper leaves open, and their levels, the possible decisions.
 
-The reason for a level is next to it in config.yaml. The first level of each factor is that of the
-reference study.
+The reason for each level is in config.yaml, next to it. The first level of each factor is that of
+the reference study.
 """
 
 from typing import Literal
@@ -22,25 +22,25 @@ from replication.config.units import (
 
 
 class Ranges(Part):
-    """From where to where settings are sought: to the edges of the method."""
+    """Ranges of settings in a search, up to the limits of the method."""
 
     widths: Ordered[Scale]
-    """Of a neighbourhood: the winner alone, and flat. The workspace is 2 wide."""
+    """Widths of neighbourhoods, from the winner alone to all cells. The workspace is 2 wide."""
     rates: Ordered[Fraction]
-    """Of learning, in (0, 1]."""
+    """Learning rates, in (0, 1]."""
 
 
 class RoughSearch(Part):
-    """A very rough search, as by hand."""
+    """A very rough search, like a search by hand."""
 
     trials: Times
-    """Settings tried."""
+    """Number of settings tried."""
     ranges: Ranges
-    """Of settings that one would try."""
+    """Ranges of settings that one would try by hand."""
 
 
 class Factors(Part):
-    """Each of them by its levels."""
+    """The factors, each with its levels."""
 
     robot: SomeDistinct[Name]
     """Robot; the proportions of its workspace are those of the study's own."""
@@ -73,29 +73,29 @@ class Factors(Part):
 
 
 class Campaign(Part):
-    """Setups that decide otherwise what the paper leaves open, and the reference study."""
+    """The reference study, and setups with other decisions on what the paper leaves open."""
 
     setups: Several
-    """Setups; number 0 is the reference study."""
+    """Number of setups; setup 0 is the reference study."""
     replicated: Times
-    """So many of them, the first ones, are measured `replicates` times."""
+    """Number of setups, from the first, that are measured `replicates` times."""
     replicates: Several
-    """Measurements of such a setup, each with searches, poses and runs of its own."""
+    """Measurements of such a setup, each with its own searches, poses and runs."""
     seed: Seed
-    """Of their design."""
+    """Seed of the design."""
     factors: Factors
-    """What the paper leaves open."""
+    """Choices that the paper leaves open."""
     home_spread: Turn
-    """How far from the configured home each joint of a random one may be."""
+    """Greatest distance of each joint in a random home from the configured home."""
     longer: Size
-    """By which a longer tool goes on, on the study's own robot."""
+    """Extra length of a longer tool, on the study's own robot."""
     runs: Several
-    """Runs of a training of which the errors are means."""
+    """Number of runs of a training over which errors are averaged."""
     rough: RoughSearch
     """A very rough search, like the paper's."""
     late: Count
     """Iterations after which Ritter's maps are compared with one another."""
     rungs: SomeDistinct[Count]
-    """Further iterations at which Ritter's map is sought that reaches the improved system."""
+    """Further numbers of iterations after which Ritter's map may reach the improved system."""
     reference_rungs: SomeDistinct[Count]
-    """Iterations for which every step from Ritter's map to the improved system is tuned at home."""
+    """In setup 0, iterations for which each step from Ritter's map to the improved one is tuned."""

@@ -1,4 +1,4 @@
-"""Mistakes in a configuration as sentences: the key, its value, what would be valid."""
+"""Messages about mistakes in a configuration: the key, its value, and what was expected."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
@@ -8,11 +8,11 @@ from recalib.spelling import instead
 
 EXPECTED = "; expected: "
 MOST_SHOWN = 10  # mistakes
-LONGEST = 60  # characters of a value that are shown
+LONGEST = 60  # characters of a value in a message
 
 
 class InvalidConfiguration(RecalibError):
-    """A configuration with mistakes; the message shows the first of `mistakes`, a line each."""
+    """A configuration with mistakes; the message lists the first of `mistakes`, one a line."""
 
     def __init__(self, mistakes: Sequence[str]):
         self.mistakes = list(mistakes)
@@ -25,11 +25,11 @@ KeyPath = tuple[str | int, ...]
 
 
 class Mistake(NamedTuple):
-    """What is wrong at the path of a key."""
+    """A mistake at the path of a key."""
 
     path: KeyPath  # the path of the key
     fault: str  # the rest of a sentence that begins with the path
-    # other keys that do not go together with this one: the mistake is reported at the first of them
+    # other keys that contradict this one: the mistake is reported at the first of all these keys
     # that the user's sources set
     also: tuple[KeyPath, ...] = ()
 
@@ -38,24 +38,24 @@ class Mistake(NamedTuple):
 
 
 def dotted(path: KeyPath) -> str:
-    """A path as people write it: scenarios.translation[0].shorten."""
+    """A path as text, such as scenarios.translation[0].shorten."""
     parts = (f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
     return "".join(parts).removeprefix(".")
 
 
 def unlike(path: KeyPath, value: Any, valid: str, *also: KeyPath) -> Mistake:
-    """A value that is none of the valid ones."""
+    """The mistake of a value that is not valid."""
     return Mistake(path, f" is {shown(value)}{EXPECTED}{valid}", also)
 
 
 def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:
-    """A name that is not among the valid ones; the path may end with it."""
+    """The mistake of a name that is not among the valid names; the path may end with it."""
     fault = ": unknown name" if path[-1] == name else f" is {shown(name)}"
     return Mistake(path, f"{fault}; {instead(name, valid)}")
 
 
 def shown(value: Any) -> str:
-    """A value as it would be written in YAML; of a long one, the beginning."""
+    """A value as in YAML; only the beginning of a long one."""
     match value:
         case None:
             return "null"

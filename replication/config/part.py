@@ -1,18 +1,18 @@
-"""What all parts of the configuration, and of what is made from it, have in common."""
+"""Base classes of the configuration's parts and of other immutable data."""
 
 from pydantic import BaseModel, ConfigDict
 
 
 class Frozen(BaseModel):
-    """A value that cannot be changed, and knows no other keys than its own.
+    """An immutable value that refuses unknown keys.
 
-    What checks it is built when it is first needed: a job needs few of all kinds.
+    Its validator is built when it is first needed, because a job needs few of these classes.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 class Part(Frozen):
-    """A part of the configuration: below each key stands its meaning, for the schema."""
+    """A part of the configuration. The docstring of each key is its description in the schema."""
 
     model_config = ConfigDict(use_attribute_docstrings=True)

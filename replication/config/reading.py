@@ -1,7 +1,7 @@
-"""From configuration files to a study.
+"""Read a study from configuration files.
 
-`python -m replication.config.reading FILE` says why a file is not a study: Snakemake reads it
-before the project does, and names no file when it cannot.
+`python -m replication.config.reading FILE` reports why a file is not valid YAML. Snakemake reads
+the file before the project does, and does not name it in its own message.
 """
 
 import sys
@@ -24,13 +24,13 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = ()) ->
     """The study of a configuration file.
 
     Args:
-        overlays: files, or mappings from the command line, that are laid over it in this order:
+        overlays: files, or mappings from the command line, that override the file in this order:
             mappings key by key, anything else as a whole.
-        checks: what to ask of the study beyond its types, each where those before found nothing.
+        checks: checks of the study beyond its types; each runs only if those before found nothing.
 
-    Raises InvalidConfiguration, with file, line and column of every mistake. The file is taken to
-    be right by itself: if one of its values does not go together with an overlay, the mistake is
-    reported at the last overlay, without a line.
+    Raises InvalidConfiguration, with file, line and column of every mistake. The file alone is
+    assumed to be valid: if one of its values contradicts an overlay, the mistake is reported for
+    the last overlay, without a line.
     """
     sources = [*map(placed, (path, *overlays))]
     whole = reduce(Placed.under, sources)
@@ -55,7 +55,7 @@ def placed(source: Source) -> Placed:
 def _at_its_place(
     mistakes: Iterable[Mistake], whole: Placed, own: Sequence[str]
 ) -> InvalidConfiguration:
-    """Mistakes by their lines in the user's `own` sources; one within an anchor is listed once."""
+    """Mistakes with their lines in the user's `own` sources; a mistake in an anchor only once."""
     lines: dict[tuple[Place, str], Mistake] = {}
     for mistake in mistakes:
         places = [whole.at(path).place for path in (mistake.path, *mistake.also)]

@@ -1,4 +1,4 @@
-"""What the types refuse, as mistakes: the key, its value, and pydantic's own words."""
+"""Convert pydantic's validation errors into mistakes: the key, its value, what was expected."""
 
 import re
 from collections import defaultdict
@@ -13,9 +13,9 @@ from recalib.spelling import instead, listed, nearest
 from replication.config.messages import EXPECTED, Mistake, unlike
 from replication.config.schema import find, keys, meaning
 
-KEY = "[key]"  # how pydantic ends the place of a key that is no valid name
+KEY = "[key]"  # end of the location in pydantic's errors about keys that are no valid name
 MISSING = " is missing: "
-# Pydantic's terms of Python, in terms of YAML.
+# Replaces Pydantic's Python terms by YAML terms.
 YAML_TERMS = {
     r"^\w+ should (be|have) ": "",
     r"a valid dictionary.*": "a mapping",
@@ -27,9 +27,9 @@ YAML_TERMS = {
 
 
 def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
-    """What is wrong with the `whole` configuration: a mistake for each key.
+    """Mistakes in the `whole` configuration, one for each key.
 
-    A misspelt key does not count as missing.
+    A key that is misspelt is not also reported as missing.
     """
     mistakes, intended = {}, set()
     errors = error.errors(include_url=False)
@@ -47,20 +47,20 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
                 mistakes[path] = Mistake(path, f": unknown key; {instead(name, valid)}")
             case "missing" if path in intended:
                 pass
-            case "missing" if isinstance(last, int):  # the last of so many in a list
+            case "missing" if isinstance(last, int):  # a list that is too short
                 values = reduce(getitem, path[:-1], whole)
                 mistakes[path[:-1]] = unlike(path[:-1], values, f"{last + 1} values")
             case "missing":
                 mistakes[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
             case "too_short" if refusal["input"]:
-                pass  # since none of its values is valid, which each of them says
+                pass  # none of its values is valid, and each has its own mistake
             case _:
                 mistakes.setdefault(path, unlike(path, refusal["input"], _expected(refusal["msg"])))
     return [*_together(mistakes.values(), whole)]
 
 
 def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
-    """Several keys that one part lacks, and several wrong values of one list, as one mistake."""
+    """Combine missing keys of one part, and wrong values of one list, into one mistake."""
     groups = defaultdict(list)
     for mistake in mistakes:
         missing = mistake.fault.startswith(MISSING)
@@ -70,8 +70,8 @@ def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
         if len(group) == 1:
             yield group[0]
         elif missing:
-            lacking = (str(mistake.path[-1]) for mistake in group)
-            yield Mistake(path, f" lacks {listed(lacking, 'and')}")
+            names = (str(mistake.path[-1]) for mistake in group)
+            yield Mistake(path, f" lacks {listed(names, 'and')}")
         else:
             _, _, expected = group[0].fault.partition(EXPECTED)
             yield unlike(path, reduce(getitem, path, whole), f"each {expected}")

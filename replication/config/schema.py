@@ -1,4 +1,4 @@
-"""What the types say of every key: a JSON schema, for editors and for messages.
+"""The JSON schema of a configuration, from its types, for editors and for messages.
 
 `python -m replication.config.schema` writes workflow/schemas/config.schema.json.
 """
@@ -18,25 +18,25 @@ FILE = Path("workflow/schemas/config.schema.json")
 
 
 class _WithoutTitles(GenerateJsonSchema):
-    """Titles would repeat the keys."""
+    """A generator that omits titles, because they would repeat the keys."""
 
     def field_title_should_be_set(self, schema: object) -> bool:
         return False
 
 
-@cache  # making it takes longer than reading a study
+@cache  # generating it takes longer than reading a study
 def json_schema() -> JsonSchemaValue:
     """The schema of a configuration."""
     return Study.model_json_schema(schema_generator=_WithoutTitles)
 
 
 def text() -> str:
-    """The schema as its file holds it."""
+    """The content of the schema's file."""
     return json.dumps(json_schema(), indent=1) + "\n"
 
 
 def find(location: Sequence[str | int]) -> tuple[KeyPath, JsonSchemaValue]:
-    """The path and the schema of a place in pydantic's errors, which name choices, too."""
+    """The key's path and schema for a location in pydantic's errors, which includes choices."""
     schema = json_schema()
     path: KeyPath = ()
     for part in location:
@@ -54,12 +54,12 @@ def _at(schema: JsonSchemaValue, part: str | int) -> JsonSchemaValue:
         fixed = schema.get("prefixItems")
         return fixed[part] if fixed else schema.get("items", {})
     named = schema.get("patternProperties", {}).values()
-    whatever = next(iter(named), schema.get("additionalProperties") or {})
-    return schema.get("properties", {}).get(part, whatever)
+    default = next(iter(named), schema.get("additionalProperties") or {})
+    return schema.get("properties", {}).get(part, default)
 
 
 def resolved(schema: JsonSchemaValue) -> JsonSchemaValue:
-    """The schema itself in the place of a reference to it, or of it or null."""
+    """The schema that a reference, or a choice between it and null, points to."""
     for choice in schema.get("anyOf", ()):
         if choice.get("type") != "null":
             return resolved(choice)
@@ -73,7 +73,7 @@ def keys(schema: JsonSchemaValue) -> list[str]:
 
 
 def meaning(schema: JsonSchemaValue) -> str:
-    """What a key is, within a sentence; of a value in a list, that it is one."""
+    """The description of a key, for use within a sentence; "a value" if it has none."""
     text = schema.get("description") or resolved(schema).get("description", "A value.")
     return f"{text[0].lower()}{text[1:-1]}"
 

@@ -1,7 +1,7 @@
-"""A study as one typed value: every key of config.yaml, with its meaning, unit and range.
+"""The configuration of a study: every key of config.yaml, with its meaning, unit and range.
 
-The shipped replication is one value of `Study`. Which trainings there are follows from it: see
-`replication.training.plan`.
+The shipped replication is one value of `Study`. `replication.training.plan` derives all trainings
+from it.
 """
 
 import math
@@ -44,14 +44,14 @@ class WorkspaceSettings(Part):
     """Full size of the workspace."""
 
     position: tuple[Side, Side, Side]
-    """Along the base's x, y and z."""
+    """Lengths along the base's x, y and z."""
     orientation: tuple[Range, Range, Range]
-    """Of roll, pitch and yaw, or along the axes of rotation vectors."""
+    """Ranges of roll, pitch and yaw, or of the components of rotation vectors."""
     coordinates: Literal["roll_pitch_yaw", "rotation_vector"] = "roll_pitch_yaw"
-    """By which orientations are given."""
+    """Coordinates of orientations."""
 
     def scale_to(self, other: Self) -> float:
-        """How large this one is, where the other is 1: the cube root of the ratio of volumes."""
+        """Size relative to another workspace: the cube root of the ratio of volumes."""
         return round(math.cbrt(math.prod(self.position) / math.prod(other.position)), 4)
 
 
@@ -63,7 +63,7 @@ class RobotSettings(Part):
     tool: Text
     """Link whose frame is the pose."""
     beyond: Amount = 0.0
-    """By which a rigid tool goes on outwards from there, along the last joint's axis."""
+    """Length of a rigid tool that extends outwards from this link, along the last joint's axis."""
     home: Annotated[dict[str, Angle], Filled]
     """Joint angles at the centre of the workspace."""
     limits: dict[str, Ordered[Angle]] = Field(default={})
@@ -78,25 +78,25 @@ class ControllerSettings(Part):
     """The nominal controller."""
 
     greatest_condition: Annotated[Number, Field(gt=1, le=1e9)]
-    """Largest condition number of the Jacobian that is accepted in the workspace."""
+    """Largest accepted condition number of the Jacobian in the workspace."""
 
 
 class Published(Part):
     """Initial errors in the paper."""
 
     position_error_cm: Error
-    """In centimetres."""
+    """Position error in centimetres."""
     orientation_error_deg: Error
-    """In degrees."""
+    """Orientation error in degrees."""
 
 
 class PaperDamage(Part):
     """The damage of section 7, whose links, encoders and signs are not published."""
 
     shorten: Annotated[tuple[Size, ...], Filled]
-    """Lengths taken off as many links."""
+    """Lengths taken off links, one for each damaged link."""
     shift: Annotated[tuple[Annotated[Turn, Field(gt=0)], ...], Filled]
-    """Angles by which as many encoders are shifted, in either direction."""
+    """Angles by which encoders are shifted, in either direction, one for each damaged encoder."""
     published: Published
     """Initial errors in the paper."""
     poses: Times
@@ -108,14 +108,14 @@ Grid = tuple[CellCount, CellCount, CellCount]
 
 
 class LearnerSettings(Part):
-    """A learner of the paper: four switches, the sizes of its nets, and how long it is trained."""
+    """A learner of the paper: four switches, and the sizes of its nets."""
 
     maps: Literal["single", "separate"]
     """One map for the whole command, or one for position and one for orientation (section 4)."""
     theta: Literal["values", "increments"]
-    """What is propagated of theta (section 5)."""
+    """Whether values or increments of theta are propagated (section 5)."""
     jacobian: Literal["values", "increments"]
-    """What is propagated of the Jacobians (section 5)."""
+    """Whether values or increments of Jacobians are propagated (section 5)."""
     schedule: Literal["exponential", "equal_visits"]
     """Decay of widths and rate (section 6)."""
     supernet: Grid
@@ -128,31 +128,31 @@ class Ensemble(Part):
     """Robots with other assignments and other amounts of the paper's damage."""
 
     draws: Times
-    """Assignments drawn."""
+    """Number of random assignments."""
     scales: SomeDistinct[Scale]
-    """Factors of all amounts."""
+    """Factors that multiply all amounts."""
 
 
 Lengths = SomeDistinct[Count]
 
 
 class Experiments(Part):
-    """Which learners are trained on which scenarios, for how many iterations."""
+    """The learners to train, on which scenarios, and for how many iterations."""
 
     scenarios: SomeDistinct[Name]
-    """On the study's robot."""
+    """Scenarios on the study's robot."""
     learners: Annotated[dict[Name, Lengths], Filled]
-    """Trained on each of them, by learner."""
+    """Numbers of iterations in each of these scenarios, by learner."""
     robots: Distinct[Name]
-    """Other robots on which they are trained, in the study's own scenario."""
+    """Other robots on which the same learners are trained, in the study's main scenario."""
     own: dict[Name, Distinct[Count]]
-    """More trainings in the study's own scenario, by learner."""
+    """Additional numbers of iterations in the study's main scenario, by learner."""
     iterations: Count
-    """Of Figure 1, and of the improved system with a switch changed."""
+    """Iterations of Figure 1, and of the improved system with a switch changed."""
     switches: Switch
-    """Whether to take each of the four changes from the improved system and add it to Ritter's."""
+    """Whether to remove each of four changes from the improved system and add it to Ritter's."""
     evidence: Switch
-    """Whether to judge and draw every claim of the paper, or those alone that trainings tell of."""
+    """Whether to judge and plot all claims of the paper, or only claims about trainings."""
     ensemble: Ensemble
     """Robots with other assignments and amounts of the paper's damage."""
 
@@ -161,28 +161,28 @@ class Benchmark(Part):
     """The comparison of all learners in robot moves."""
 
     scenarios: SomeDistinct[Name]
-    """On the study's robot."""
+    """Scenarios on the study's robot."""
     learners: SomeDistinct[Name]
     """Today's learners."""
     papers: dict[Name, Count]
-    """The paper's, each trained for so many iterations."""
+    """The paper's learners, each with its number of iterations."""
     seeds: Several
-    """Seeds of each learner on each scenario."""
+    """Number of seeds of each learner on each scenario."""
     moves: SomeDistinct[Times]
-    """Budgets of moves at which to measure."""
+    """Numbers of moves after which to measure errors."""
     longer: Distinct[Count]
-    """More budgets, for trainings that go on."""
+    """More numbers of moves, for longer trainings."""
     thresholds: SomeDistinct[Error]
-    """Errors to reach, in cm and degrees; the smallest of them is the page's."""
+    """Errors to reach, in cm and degrees; pages report the smallest."""
 
 
 class Source(Part):
     """A recording of the real arm."""
 
     file: Text | None
-    """A copy on this machine."""
+    """Path of a copy on this machine."""
     url: Url
-    """The public address."""
+    """Public address."""
     sha256: Checksum
     """Checksum of the file."""
 
@@ -211,50 +211,50 @@ class Real(Part):
     robot: Name
     """The nominal robot."""
     data: Recordings
-    """Its recordings."""
+    """Recordings of the arm."""
     description: Text
-    """What they do not say themselves: a file of the project."""
+    """A file of the project that describes the recordings: units, frames, columns."""
     published: PublishedReal
-    """What was published with them."""
+    """Errors that were published with the recordings."""
     learners: SomeDistinct[Name]
-    """Those that can learn from recorded poses."""
+    """Learners that can learn from recorded poses."""
     twin: dict[Name, Count]
-    """The paper's, which choose their poses, and so learn on a twin for so many iterations."""
+    """The paper's learners, which choose their poses and so need a twin, with their iterations."""
     poses: SomeDistinct[Several]
-    """How many poses to learn from."""
+    """Numbers of poses to learn from."""
     subsets: Several
-    """Random subsets for each number of poses."""
+    """Number of random subsets for each number of poses."""
 
 
 class Mapping(Part):
     """Measurements of the true mapping, without a learner."""
 
     poses: Times
-    """Where the Jacobian of the mapping is taken."""
+    """Number of random poses for Jacobians of the mapping."""
     balls: Times
-    """Balls of section 5."""
+    """Number of balls for the integrals of section 5."""
     points: Times
-    """Random points of a ball."""
+    """Number of random points in a ball."""
     radius: Fraction
-    """Of a ball, in workspace coordinates."""
+    """Radius of a ball, in workspace coordinates."""
     scales: SomeDistinct[Scale]
-    """Factors of the damage."""
+    """Factors that multiply the damage."""
 
 
 class Measuring(Part):
-    """On how many poses trainings are measured, and when."""
+    """Test poses of trainings, and when to measure errors on them."""
 
     tests: Times
-    """Random poses for a measurement."""
+    """Number of random poses for a measurement."""
     measure_every: Count
     """Iterations between two measurements."""
     measure_evenly: Count
-    """Longer trainings are measured on a logarithmic grid."""
+    """Iterations; longer trainings are measured on a logarithmic grid."""
     measurements: Several
-    """Points of that grid."""
+    """Number of points of this grid."""
 
     def during(self, iterations: int) -> list[int]:
-        """After how many iterations to measure a training of so many."""
+        """The iterations after which to measure, in a training of a given length."""
         if iterations <= self.measure_evenly:
             return sorted({*range(0, iterations, self.measure_every), iterations})
         grid = np.geomspace(1, iterations, self.measurements).round().astype(int)
@@ -265,53 +265,53 @@ class TrainingSettings(Measuring):
     """How trainings are run and measured."""
 
     seeds: Several
-    """Seeds of each training."""
+    """Number of seeds of each training."""
 
 
 class SearchSettings(Part):
     """The search for widths and rates."""
 
     searches: Several
-    """Independent searches for each training, with seeds and poses of their own."""
+    """Number of independent searches for each training, with their own seeds and poses."""
     seed: Seed
-    """Of searches and their poses, which are used nowhere else."""
+    """Seed of searches and their poses, which are not used elsewhere."""
     ranges: Ranges
-    """Of settings."""
+    """Ranges of settings."""
     trials: Times
-    """Settings that a search tries at first."""
+    """Number of settings that a search tries at first."""
     runs: Times
-    """Runs over which a trial is averaged, each with poses of its own ..."""
+    """Number of runs over which a trial is averaged, each with its own poses."""
     long: Count
-    """... up to so many iterations; and in longer trainings:"""
+    """Iterations; the trials of longer trainings have `long_runs` runs instead."""
     long_runs: Times
-    """Runs."""
+    """Number of runs over which a trial of a long training is averaged."""
     near: Count
-    """Longer trainings than this are sought near the winners of the next shorter ones."""
+    """Iterations; the search for a longer training starts at the winner of the next shorter one."""
     near_trials: Times
-    """Settings that such a search tries at first."""
+    """Number of settings that such a search tries at first."""
     within: Fraction
-    """Searches have converged when their winners differ by less, on fresh poses."""
+    """Searches have converged if their winners differ by less than this share, on fresh poses."""
     fresh: Several
-    """Runs on fresh poses."""
+    """Number of runs on fresh poses."""
     doublings: Annotated[int, Field(strict=True, ge=0, le=9)]
-    """How often all searches may begin once more, with twice as many trials."""
+    """How often all searches may restart with twice as many trials."""
 
 
 class Study(Part):
-    """Robot, damage, learners, settings, budgets and seeds: findings follow from it and code."""
+    """Robot, damage, learners, settings, budgets and seeds: together they determine findings."""
 
     name: StudyName
-    """`replication` is the shipped study; results of any other lie in results/studies/NAME."""
+    """`replication` is the shipped study; results of others are in results/studies/NAME."""
     seed: Seed
-    """Of the whole study."""
+    """Seed of the whole study."""
     robot: Name
     """The study's robot, a key of robots."""
     scenario: Name
-    """The study's own, the paper's damage: that of Figure 1, of the ladders and of the search."""
+    """The study's main scenario, the paper's damage: for Figure 1, ladders and searches."""
     settings: Literal["shipped", "own"]
-    """Widths and rates: those searched for the shipped study, where there are any, or its own."""
+    """Widths and rates from the shipped study, if it has them, or from this study's own search."""
     expected: Text | None
-    """File with the bands in which final errors are expected; null: no check."""
+    """File with the expected bands of final errors; null: no check."""
     robots: Annotated[dict[Name, RobotSettings], Filled]
     """Robots by name."""
     controller: ControllerSettings
@@ -323,7 +323,7 @@ class Study(Part):
     learners: Annotated[dict[Name, LearnerSettings], Filled]
     """Learners of the paper by name."""
     experiments: Experiments
-    """Which learners are trained on which scenarios."""
+    """The learners to train, and on which scenarios."""
     benchmark: Benchmark
     """The comparison in robot moves."""
     real: Real
@@ -335,11 +335,11 @@ class Study(Part):
     search: SearchSettings
     """The search for widths and rates."""
     campaign: Campaign
-    """Setups that decide otherwise what the paper leaves open."""
+    """The reference study, and setups with other decisions on what the paper leaves open."""
 
     @cached_property
     def every_learner(self) -> AnyMapping[str, LearnerSettings]:
-        """Every learner by name: the configured ones, and those with one switch changed."""
+        """Every learner by name: configured learners, and variants with one switch changed."""
         named = dict(self.learners)
         if IMPROVED in named and RITTER in named:
             improved, ritter = named[IMPROVED], named[RITTER]
@@ -352,7 +352,7 @@ class Study(Part):
         return named
 
     def doubled(self, learner: LearnerSettings) -> LearnerSettings:
-        """A learner with one map, with as many cells as two maps: twice as many along a side."""
+        """A one-map learner with the cells of two maps: twice as many along the longest side."""
         sides = self.robots[self.robot].workspace.position
         longest = sides.index(max(sides))
         cells = [(1 + (axis == longest)) * count for axis, count in enumerate(learner.supernet)]

@@ -9,11 +9,11 @@ class Switch(NamedTuple):
     """One of the four changes that lead from Ritter's algorithm to the improved one."""
 
     key: str  # the key in a learner's settings
-    # what each of the paper's learners has there
+    # the values of the paper's two learners
     ritter: str
     improved: str
-    without: str  # the improved system with this change taken away
-    added: str  # Ritter's algorithm with this change alone
+    without: str  # name of the improved system without this change
+    added: str  # name of Ritter's algorithm with this change alone
 
 
 SWITCHES = (

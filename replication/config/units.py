@@ -1,7 +1,7 @@
-"""Values of the configuration as types, each with its range; quantities: `recalib.files.bounded`.
+"""Types of values in a configuration, with ranges. For quantities see `recalib.files.bounded`.
 
-Counts are whole numbers, no text, no 4.0. Editors say what would be valid as messages do, by
-`patternErrorMessage`.
+Counts must be integers, not text or 4.0. `patternErrorMessage` gives editors the same text that
+messages have.
 """
 
 from collections.abc import Callable, Sequence
@@ -11,11 +11,11 @@ from pydantic import AfterValidator, Field, StringConstraints, ValidationError, 
 from pydantic_core import PydanticCustomError
 
 MOST = 1_000_000  # iterations: more would run for days
-MOST_TIMES = 10_000  # of what is drawn, done or measured again and again
+MOST_TIMES = 10_000  # draws, runs or measurements
 
 
 def _expected(valid: str) -> WrapValidator:
-    """A validator that refuses every wrong value with the same message: what is `valid`."""
+    """A validator that has one message for every wrong value: the description of valid ones."""
 
     def validated(value: Any, validate: Callable[[Any], Any]) -> Any:
         try:
@@ -27,7 +27,7 @@ def _expected(valid: str) -> WrapValidator:
 
 
 def _text(pattern: str, valid: str, longest: int) -> Any:
-    """The type of text that follows a pattern."""
+    """A type of text that must match a pattern."""
     return Annotated[
         str,
         StringConstraints(strict=True, pattern=pattern, max_length=longest),
@@ -41,7 +41,7 @@ Times = Annotated[int, Field(strict=True, ge=1, le=MOST_TIMES)]
 Several = Annotated[Times, Field(ge=2)]
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**32 - 1)]
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Error = Annotated[Number, Field(ge=1e-6, le=1e4)]  # cm, mm, degrees: less is rounding
+Error = Annotated[Number, Field(ge=1e-6, le=1e4)]  # cm, mm, degrees; less would be rounding
 Scale = Annotated[Number, Field(ge=1e-3, le=1e3)]
 Fraction = Annotated[Number, Field(ge=1e-3, le=1)]
 Name = _text(  # of a robot, a scenario, a learner: it becomes part of paths

@@ -1,6 +1,6 @@
-"""YAML, read strictly: every value knows where it stands, and no key stands twice.
+"""A strict reader of YAML: every value has its line and column, and duplicate keys are refused.
 
-Words are those of YAML 1.2: `yes`, dates and 1:30 are text.
+As in YAML 1.2, `yes`, dates and 1:30 are text.
 """
 
 from collections.abc import Mapping
@@ -23,13 +23,13 @@ Place = tuple[str | int, ...]  # file, line, column
 
 @dataclass(frozen=True)
 class Placed:
-    """A value and where it stands."""
+    """A value and its place in a file."""
 
     content: Any  # a scalar, or a mapping or a list of values
-    place: Place  # of its key, where it has one
+    place: Place  # the place of its key, if it has one
 
     def plain(self) -> Any:
-        """The same without places."""
+        """The same value without places."""
         match self.content:
             case dict():
                 return {key: value.plain() for key, value in self.content.items()}
@@ -48,18 +48,18 @@ class Placed:
         return value
 
     def under(self, other: "Placed") -> "Placed":
-        """This value with another laid over it: mappings key by key, anything else as a whole."""
+        """This value, overridden by another: mappings key by key, anything else as a whole."""
         if not (isinstance(self.content, dict) and isinstance(other.content, dict)):
             return other
-        laid = {
+        merged = {
             key: self.content[key].under(value) if key in self.content else value
             for key, value in other.content.items()
         }
-        return Placed(self.content | laid, self.place)
+        return Placed(self.content | merged, self.place)
 
 
 def from_mapping(data: Any, place: Place = (COMMAND_LINE,)) -> Placed:
-    """Values that stand in no line of a file, such as those from the command line."""
+    """Values without a line in a file, such as those from the command line."""
     match data:
         case Mapping():
             data = {str(key): from_mapping(part, place) for key, part in data.items()}
@@ -79,15 +79,15 @@ def from_file(path: str | PathLike[str]) -> Placed:
     except OSError as error:
         problem = f"{name}: {error.strerror}"
     except (UnicodeDecodeError, YAMLError):
-        problem = f"{name}: no text in UTF-8"
+        problem = f"{name}: not a text in UTF-8"
     except ValueError:
-        problem = f"{name}: a value that is not what its tag says"
+        problem = f"{name}: a value that does not fit its tag"
     except RecursionError:
         problem = f"{name}: an anchor within itself, or too many brackets"
     raise InvalidConfiguration([problem])
 
 
-@cache  # several studies begin with one file
+@cache  # several studies start from the same file
 def _parsed(name: str, text: str) -> Placed:
     reader = YAML(typ="safe", pure=True)  # of YAML 1.2
     reader.Constructor = _Constructor
@@ -100,26 +100,26 @@ def _parsed(name: str, text: str) -> Placed:
 
 
 class _Constructor(SafeConstructor):
-    """Ruamel's, for which a date is text."""
+    """Ruamel's constructor, except that dates are text."""
 
 
 _Constructor.add_constructor("tag:yaml.org,2002:timestamp", SafeConstructor.construct_scalar)
 
 
 def _with_places(node: Node | None, reader: SafeConstructor, place: Place) -> Placed:
-    """The values of a node. Raises MarkedYAMLError for a key that stands twice or is no text."""
+    """The values of a node. Raises MarkedYAMLError if a key is duplicate or not text."""
     content: Any
     match node:
         case MappingNode():
-            # an alias is met again, with what was merged in front
-            own = [key for key, _ in node.value[len(node.merge or ()) :]]
-            for index, key in enumerate(own):
-                if key.value in [other.value for other in own[:index]]:
-                    raise _mistaken(f"{key.value} stands twice", key)
-            reader.flatten_mapping(node)  # what << merges comes first
+            # the node of an alias may have been flattened before: skip its merged keys, in front
+            keys = [key for key, _ in node.value[len(node.merge or ()) :]]
+            for index, key in enumerate(keys):
+                if key.value in [other.value for other in keys[:index]]:
+                    raise _mistaken(f"duplicate key {key.value}", key)
+            reader.flatten_mapping(node)  # puts keys merged by << in front
             for key, _ in node.value:
                 if not isinstance(key, ScalarNode):
-                    raise _mistaken("a key that is no text", key)
+                    raise _mistaken("a key that is not text", key)
             content = {
                 key.value: _with_places(part, reader, _place(key, place))
                 for key, part in node.value
@@ -127,7 +127,7 @@ def _with_places(node: Node | None, reader: SafeConstructor, place: Place) -> Pl
         case SequenceNode():
             content = [_with_places(part, reader, _place(part, place)) for part in node.value]
         case ScalarNode() if node.tag not in reader.yaml_constructors:
-            raise InvalidConfiguration([f"{shown(place)}: no YAML: the tag {node.tag}"])
+            raise InvalidConfiguration([f"{shown(place)}: invalid YAML: unknown tag {node.tag}"])
         case _:
             content = reader.construct_object(node) if node else None
     return Placed(content, place)
@@ -142,13 +142,13 @@ def _place(node: Node, within: Place) -> Place:
 
 
 def _unreadable(name: str, error: MarkedYAMLError) -> str:
-    """Ruamel's reason in a sentence."""
-    context = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
+    """Ruamel's message in one sentence."""
+    context = f" in the part from line {error.context_mark.line + 1}" if error.context_mark else ""
     mark = error.problem_mark
     problem = str(error.problem).strip()
-    return f"{shown((name, mark.line + 1, mark.column + 1))}: no YAML: {problem}{context}"
+    return f"{shown((name, mark.line + 1, mark.column + 1))}: invalid YAML: {problem}{context}"
 
 
 def shown(place: Place) -> str:
-    """A place as compilers write it."""
+    """A place as FILE:LINE:COLUMN."""
     return ":".join(map(str, place))

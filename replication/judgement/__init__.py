@@ -1,4 +1,4 @@
-"""Evidence: results of all trainings, the verdicts and checks on them, and pages that say so."""
+"""Judgement: the results of all trainings, checks of them, and verdicts on the paper's claims."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Tables of the benchmark and of the real arm: errors, and moves to each threshold."""
+"""Tables of the benchmark and of the real arm: errors, and moves to reach each threshold."""
 
 from collections.abc import Sequence
 from itertools import product
@@ -17,8 +17,8 @@ LABELS = ["scenario", "learner"]
 def put_together(study: Study, histories: Sequence[Path]) -> tuple[pd.DataFrame, ...]:
     """The benchmark's two tables, from files of histories.
 
-    Both errors with their intervals, a row for each scenario, learner and budget of moves; and
-    moves to each threshold: medians over seeds, with the 5th and the 95th percentile.
+    The first has both errors with their intervals, a row for each scenario, learner and number of
+    moves. The second has moves to reach each threshold: medians and 5th and 95th percentiles.
     """
     plan, history = study.benchmark, pd.concat(map(pd.read_parquet, histories))
     groups = history.groupby(LABELS)
@@ -46,14 +46,14 @@ def moves_to_reach(history: pd.DataFrame, errors: Sequence[str], threshold: floa
 
 
 def real_errors(runs: Sequence[Path]) -> pd.DataFrame:
-    """Errors on the real arm: a row for each learner and number of poses, or moves on its twin.
+    """Errors on the real arm: a row for each learner, twin and number of poses.
 
     Each file has a row for each random subset of the poses.
     """
     rows = []
     table = pd.concat(map(pd.read_csv, runs))
-    for (learner, twin, poses), own in table.groupby(["learner", "twin", "poses"], sort=False):
-        cells = {"learner": learner, "twin": twin, "poses": poses, "subsets": len(own)}
-        error = own["position_error_mm"].to_numpy()
+    for (learner, twin, poses), group in table.groupby(["learner", "twin", "poses"], sort=False):
+        cells = {"learner": learner, "twin": twin, "poses": poses, "subsets": len(group)}
+        error = group["position_error_mm"].to_numpy()
         rows.append(cells | cells_of_mean("position_error_mm", error))
     return pd.DataFrame(rows)

@@ -1,4 +1,4 @@
-"""The check of final errors: every training against the band in which they are expected."""
+"""The check of final errors: every training against its expected band."""
 
 from pathlib import Path
 
@@ -10,15 +10,15 @@ from replication.training.measured import ERRORS
 KEYS = ["robot", "scenario", "learner", "iterations"]
 BAND = [*KEYS, "error", "low", "high"]  # the columns of a table of bands
 
-# A band reaches twice as far as the 95 % interval of the mean, as a ratio: other seeds would stay
-# inside, and a change of a rule that matters does not.
+# A band is twice as wide as the 95 % interval of the mean, on a logarithmic scale. Other seeds stay
+# inside it; a relevant change of a rule does not.
 REACH = 2
-# Below these, an error is rounding and the nominal controller's tolerance.
+# Smaller errors come from rounding and from the nominal controller's tolerance.
 NEGLIGIBLE = {"position_error_cm": 1e-3, "orientation_error_deg": 1e-3}
 
 
 def report(summary: Path, expected: Path) -> str:
-    """What the check says of a summary. Raises RecalibError with the errors outside their bands."""
+    """The report on a summary. Raises RecalibError with a list of errors outside their bands."""
     table = check(pd.read_csv(summary), pd.read_csv(expected))
     text: str = table.to_string(index=False, float_format="{:.4g}".format)
     rows = [
@@ -27,19 +27,19 @@ def report(summary: Path, expected: Path) -> str:
         for row in table[~table["ok"]].itertuples()
     ]
     if rows:
-        outside = f"{len(rows)} of {len(table)} final errors are outside of their bands"
+        outside = f"{len(rows)} of {len(table)} final errors are outside their bands"
         raise RecalibError("\n".join([outside, *rows]))
     print(f"all {len(table)} final errors are inside their bands")
     return text + "\n"
 
 
 def propose(summary: Path) -> pd.DataFrame:
-    """Bands for the final errors of a summary in a file."""
+    """Bands for the final errors in a summary's file."""
     return expect(pd.read_csv(summary))
 
 
 def expect(summary: pd.DataFrame) -> pd.DataFrame:
-    """Bands for the final errors of a summary: a row for each training and error."""
+    """Bands for the final errors in a summary: a row for each training and error."""
     rows = []
     for cells in summary.to_dict("records"):
         for error in ERRORS:
@@ -53,7 +53,7 @@ def expect(summary: pd.DataFrame) -> pd.DataFrame:
 
 
 def check(summary: pd.DataFrame, expected: pd.DataFrame) -> pd.DataFrame:
-    """Every final error with its band, and whether it is `ok`: not if either is missing."""
+    """Every final error with its band, and whether it is `ok`; if either is missing, it is not."""
     final = summary.melt(KEYS, [f"final_{error}" for error in ERRORS], "error", "value")
     final["error"] = final["error"].str.removeprefix("final_")
     table = expected.merge(final, "outer", [*KEYS, "error"])

@@ -1,6 +1,6 @@
-"""What changed after a result had been seen. Each change of the registration has an entry.
+"""Deviations: changes of the registration after a result had been seen, each with an entry.
 
-`python -m replication.judgement.deviations` prints the digests that a new entry has to name.
+`python -m replication.judgement.deviations` prints the digests that a new entry must contain.
 """
 
 from collections.abc import Mapping
@@ -15,52 +15,52 @@ from replication.config.shipped import DEVIATIONS
 from replication.config.values import from_file
 from replication.judgement.registered import digests
 
-REMOVED = "removed"  # instead of a digest: what is no longer there
+REMOVED = "removed"  # in place of the digest of a part that was removed
 
 
 class Change(Frozen):
     """A change after a result had been seen."""
 
     when: str  # the time of the commit, in UTC
-    commit: str  # the commit that shows it
+    commit: str  # the commit with the change
     what: str  # what was changed
-    verdict: str  # what it did to verdicts
+    verdict: str  # the effect on verdicts
 
 
 class Deviation(Change):
     """A change of the registration of the campaign in force."""
 
-    kind: Literal["criterion", "choice", "design", "code"]  # what was changed: its kind
-    # what was registered, and what counts now
+    kind: Literal["criterion", "choice", "design", "code"]  # kind of change
+    # the registered and the present version
     before: str
     after: str
-    why: str  # why it was changed
-    seen: str  # which results were known then
+    why: str  # the reason
+    seen: str  # the results that were known at the time
     # the new digests of the changed parts, by name, or `REMOVED`
     digests: dict[str, str] = Field(default={})
 
 
 class Withdrawn(Frozen):
-    """Changes during an earlier campaign, which judges nothing today."""
+    """Changes during an earlier campaign, which no longer determines verdicts."""
 
     campaign: str
     changes: tuple[Change, ...]
 
 
 class Deviations(Frozen):
-    """What was registered, and all changes, in the order of time."""
+    """The digests of the registration, and all changes, in chronological order."""
 
     registered: dict[str, str]  # digests by name
-    deviations: tuple[Deviation, ...]  # from the campaign in force
+    deviations: tuple[Deviation, ...]  # changes during the campaign in force
     withdrawn: tuple[Withdrawn, ...]  # earlier campaigns, the latest one first
 
     @classmethod
     def read(cls, project: Path = Path()) -> Self:
-        """Those of the project in a folder."""
+        """Read the deviations of the project in a folder."""
         return cls.model_validate(from_file(project / DEVIATIONS).plain())
 
     def undeclared(self, today: Mapping[str, str]) -> dict[str, str]:
-        """Those of today's digests that no entry names, and `REMOVED` for each that is gone."""
+        """Today's digests that no entry contains, and `REMOVED` for parts that no longer exist."""
         declared = dict(self.registered)
         for deviation in self.deviations:
             declared |= deviation.digests

@@ -1,4 +1,4 @@
-"""On which of a setup's choices a number depends."""
+"""The choice of a setup on which a number depends most."""
 
 import numpy as np
 import pandas as pd
@@ -8,14 +8,14 @@ from replication.judgement.hierarchy import LEVEL
 
 
 def strongest(numbers: np.ndarray, levels: pd.DataFrame) -> str | None:
-    """The factor that moves a number most, if chance rarely does as much.
+    """The factor with the strongest effect on a number, if it is significant; otherwise None.
 
-    In 95 % of designs in which no factor has an effect, none is named (Bonferroni). The design is
-    balanced: the other factors average out where one is looked at.
+    The analysis of variance has a level of 5 % over all factors (Bonferroni). The design is
+    balanced, so the other factors average out in the analysis of one factor.
 
     Args:
-        numbers: (setup,) in the scale in which they are averaged.
-        levels: (setup, factor).
+        numbers: (setup,) on the scale on which they are averaged.
+        levels: (setup, factor) the levels.
     """
     chances = {}
     for factor, level in levels.items():

@@ -1,4 +1,4 @@
-"""What claims are judged by, figures are drawn from and pages say: the results of a study."""
+"""The results of a study: the evidence for verdicts, figures and pages."""
 
 import json
 from functools import cache
@@ -18,11 +18,11 @@ from replication.training.plan import Place, places
 
 
 class NotMeasured(RecalibError):
-    """A study lacks what was asked for. Its text is the key that would bring it."""
+    """A result is missing in a study. The text is the configuration key that would add it."""
 
 
 class Evidence:
-    """Results of a study below the project's folder; what is missing raises NotMeasured."""
+    """The results of a study in the project's folder. A missing result raises NotMeasured."""
 
     def __init__(self, study: Study, project: Path = Path()):
         self.study, self._project = study, project
@@ -30,13 +30,13 @@ class Evidence:
 
     @property
     def shipped(self) -> bool:
-        """Whether the study is the one of the README."""
+        """Whether the study is the shipped replication, which the README describes."""
         return self.study.name == SHIPPED
 
     def table(self, name: str) -> pd.DataFrame:
-        """A table by its path below the folder of results, or below the project's.
+        """A table by its path in the folder of results, or in the project's folder.
 
-        Raises NotMeasured: it is not there, or it is the campaign's, which another study has.
+        Raises NotMeasured if it is missing, or if it is the campaign's and this is another study.
         """
         if name.startswith(CAMPAIGN) and not self.shipped:
             raise NotMeasured(f"name: {SHIPPED}")
@@ -61,20 +61,20 @@ class Evidence:
     def errors(
         self, learner: str, iterations: int, scenario: str | None = None, first: bool = False
     ) -> np.ndarray:
-        """Position [cm] and orientation errors [degrees] (seed, 2), last or before learning."""
+        """Position [cm] and orientation errors [degrees] (seed, 2), at the end or (first) start."""
         history = self.history(learner, iterations, scenario)
         iteration = 0 if first else iterations
         rows = history[history["iteration"] == iteration].sort_values("seed")
         return rows[list(ERRORS)].to_numpy()
 
     def findings(self) -> dict[str, Finding]:
-        """What was found about each claim, by its id. Raises NotMeasured: nothing was judged."""
+        """The finding about each claim, by its id. Raises NotMeasured if there are no verdicts."""
         return read_findings(_there(self._project / self._root / "claims.json", "claims.json"))
 
     def assignments(self) -> pd.DataFrame:
-        """Every assignment of the paper's damage to the study's robot, and its initial errors.
+        """All assignments of the paper's damage to the study's robot, with their initial errors.
 
-        Raises NotMeasured: no scenario of the study has a part of this damage.
+        Raises NotMeasured if no scenario of the study has a part of this damage.
         """
         table = self.table(f"assignments/{self.study.robot}.parquet")
         if table.empty:
@@ -90,22 +90,22 @@ class Evidence:
         return self.table(f"{CAMPAIGN}/halfway.csv")
 
     def levels(self) -> pd.DataFrame:
-        """The levels of each setup's factors, by its number."""
+        """The levels of all factors in each setup, by the setup's number."""
         design = self.table(f"{CAMPAIGN}/design.csv").set_index("setup")
         return design[list(Factors.model_fields)]
 
     def mapping(self, name: str) -> pd.DataFrame:
-        """One of the tables of the mapping."""
+        """A table of the mapping, by its name."""
         return self.table(f"mapping/{name}.parquet")
 
     def scenario(self) -> dict[str, Any]:
-        """The study's own scenario as resolved."""
+        """The study's main scenario, resolved."""
         place = Place(self.study.robot, self.study.scenario)
         return json.loads((self._project / place.scenario_file(self._root)).read_text("utf-8"))
 
 
 def _there(path: Path, name: str) -> Path:
-    """The path of a file. Raises NotMeasured, with its name."""
+    """The path itself, if the file exists; otherwise raises NotMeasured with the file's name."""
     if not path.is_file():
         raise NotMeasured(name)
     return path

@@ -1,4 +1,4 @@
-"""What was found about each claim: typed, written and read by one model."""
+"""The data model of findings about claims, which are written to and read from a file."""
 
 from pathlib import Path
 
@@ -9,32 +9,32 @@ from replication.config.part import Frozen
 from replication.judgement.hierarchy import Estimate, Model
 from replication.judgement.verdicts import Verdict
 
-DIGITS = 6  # more than pages show: rounding twice is rounding once
+DIGITS = 6  # significant digits: enough that pages, which show fewer, round correctly
 
 
 class Number(Frozen):
     """A number with its intervals."""
 
-    name: str  # what it is
-    system: str  # the algorithm that it is measured on; empty if the name says it
-    value: float  # the number, or its bound if only that is known
-    interval: tuple[float, float] | None = None  # 95 % of the mean over setups, or of runs
-    # in which one more study in another setup would find its number
+    name: str  # a description of the quantity
+    system: str  # the algorithm that is measured; empty if the name contains it
+    value: float  # the number, or a bound if only that is known
+    interval: tuple[float, float] | None = None  # 95 %, of the mean over setups or over runs
+    # the interval of the number in one more study with another setup
     predictive_interval: tuple[float, float] | None = None
-    bound: str | None = None  # "at least" or "at most", if the value is one
+    bound: str | None = None  # "at least" or "at most", if the value is a bound
 
 
 class Spread(Frozen):
-    """By how much a number differs from setup to setup: standard deviations of its logarithm."""
+    """The variation of a number between setups: standard deviations of its logarithm."""
 
     between: float  # between setups, without the variation between replicates
     between_interval: tuple[float, float]
-    luck: float  # between measurements of the same setup, and its interval
+    luck: float  # between measurements of the same setup
     luck_interval: tuple[float, float]
-    setups: int  # how many measured it
-    unsettled: int  # how many of its searches have not converged
+    setups: int  # number of setups with a measurement
+    unsettled: int  # number of searches that have not converged
     shares: dict[str, float]  # the share of setups with each effect
-    factor: str | None = None  # what it depends on most, beyond chance
+    factor: str | None = None  # the factor with the strongest effect, if it is significant
 
 
 class Finding(Frozen):
@@ -42,14 +42,14 @@ class Finding(Frozen):
 
     id: str  # the claim's name
     section: str  # the section of the paper
-    statement: str  # the paper's own words
-    claim: str  # what they say, in a sentence
+    statement: str  # a quotation from the paper
+    claim: str  # the claim in one sentence
     published: str | None  # the paper's number, if any
-    criterion: str  # what supports the claim
+    criterion: str  # the condition that supports the claim
     estimates: tuple[Number, ...]  # numbers; the first one decides
-    spread: Spread | None  # over the setups, if they decide
+    spread: Spread | None  # variation between setups, if these decide
     verdict: Verdict  # on the claim
-    note: str  # what else there is to say
+    note: str  # further remarks
 
 
 _FINDINGS = TypeAdapter(tuple[Finding, ...])
@@ -61,12 +61,12 @@ def read_findings(path: Path) -> dict[str, Finding]:
 
 
 def written(findings: tuple[Finding, ...]) -> bytes:
-    """The text of a file of findings."""
+    """The content of a file of findings."""
     return _FINDINGS.dump_json(findings, indent=2) + b"\n"
 
 
 def number(name: str, system: str, estimate: Estimate, another: Estimate | None = None) -> Number:
-    """A number above zero from the estimate of its logarithm."""
+    """A positive number, from the estimate of its logarithm."""
     return Number(
         name=name,
         system=system,
@@ -79,7 +79,7 @@ def number(name: str, system: str, estimate: Estimate, another: Estimate | None 
 def spread(
     model: Model, unsettled: int, shares: dict[Verdict, float], factor: str | None
 ) -> Spread:
-    """How a number differs from setup to setup."""
+    """The variation of a number between setups, from its model."""
     between, luck = (Estimate(*map(rounded, part)) for part in (model.heterogeneity, model.luck))
     return Spread(
         between=between.mean,
@@ -98,5 +98,5 @@ def _ends(estimate: Estimate) -> tuple[float, float]:
 
 
 def rounded(value: float) -> float:
-    """With so many more digits than pages show."""
+    """The value with `DIGITS` significant digits."""
     return float(f"{value:.{DIGITS}g}")

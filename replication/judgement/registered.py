@@ -1,4 +1,4 @@
-"""What was registered before the campaign: a digest of everything that a verdict follows from."""
+"""The registration before the campaign: digests of everything that determines a verdict."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ from recalib.files.storage import digest
 from replication.config.study import Study
 from replication.judgement.claims import claims
 
-# Code and tables that make a number, an interval or a verdict.
+# Code and tables that determine a number, an interval or a verdict.
 FILES = (
     "docs/registration.md",
     "workflow/campaign/design.csv",
@@ -35,7 +35,7 @@ PARTS = (
 
 
 def digests(study: Study, project: Path) -> dict[str, str]:
-    """Of each claim, each part of the configuration and each file that verdicts follow from."""
+    """Digests of all claims, parts of the configuration and files that determine verdicts."""
     found = {claim.id: digest(repr(claim.registered).encode()) for claim in claims(study)}
     for part in PARTS:
         found[f"config.yaml: {part}"] = digest(repr(getattr(study, part)).encode())

@@ -1,4 +1,4 @@
-"""The first and the last errors of every training, with intervals."""
+"""The initial and final errors of every training, with intervals."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,7 +14,7 @@ from replication.training.plan import places
 
 
 def summarise(study: Study, histories: Sequence[Path]) -> pd.DataFrame:
-    """A row for each place, learner and number of iterations; histories are files in that order."""
+    """A row for each place, learner and number of iterations; `histories` are in this order."""
     files, rows = iter(histories), []
     for place, learners in places(study).items():
         for learner, lengths in learners.items():
@@ -42,8 +42,8 @@ def _measured(history: pd.DataFrame) -> dict[str, float]:
 def cells_of_mean(name: str, values: np.ndarray) -> dict[str, float]:
     """The mean of errors (seed,), and its 95 % interval: cells NAME, NAME_low and NAME_high.
 
-    The interval is Student's for the logarithm of the mean, so that it stays above zero; NaN if
-    there is a single seed.
+    The interval is Student's for the logarithm of the mean, so that it is positive. It is NaN if
+    there is only one seed.
     """
     count, mean = len(values), values.mean()
     factor = np.nan

@@ -1,4 +1,4 @@
-"""What the paper says of the mapping and of the cells, before it trains a learner."""
+"""Measurements for the paper's claims about the mapping and the cells, mostly without training."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""How much do positions influence orientation commands, and the reverse (section 4)?"""
+"""The influence of positions on orientation commands, and the reverse (section 4)."""
 
 import numpy as np
 import pandas as pd
@@ -12,14 +12,14 @@ BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSI
 
 
 def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd.DataFrame:
-    """The off-diagonal blocks of the true mapping's Jacobian against the diagonal ones.
+    """Ratios of off-diagonal to diagonal blocks of the true mapping's Jacobian.
 
     Returns a row for each of the desired poses (n, 6), with columns position and orientation for
-    these commands: the ratio of the blocks' Frobenius norms, in coordinates of the workspace.
+    the two commands: ratios of the blocks' Frobenius norms, in workspace coordinates.
     """
     jacobians = mapping_jacobians(controller, arm, desired)
     norm = {
-        name: [np.linalg.norm(jacobians[:, own, part], axis=(1, 2)) for part in (own, other)]
-        for name, (own, other) in BLOCKS.items()
+        name: [np.linalg.norm(jacobians[:, row, column], axis=(1, 2)) for column in (row, other)]
+        for name, (row, other) in BLOCKS.items()
     }
     return pd.DataFrame({name: off / diagonal for name, (diagonal, off) in norm.items()})

@@ -1,4 +1,4 @@
-"""What sections 3 to 6 say of the cells, the true mapping and the widths, in two jobs."""
+"""Two jobs that measure what sections 3 to 6 claim about cells, the true mapping and widths."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -21,9 +21,9 @@ from replication.training.tuned import Tuned, rules_of
 
 
 def measure(study: Study, scenarios: Sequence[Path], own: Path) -> tuple[pd.DataFrame, ...]:
-    """Coupling, nearness, propagation, quantisation, solutions and visits: without a learner.
+    """Tables of coupling, nearness, propagation, quantisation, solutions and visits.
 
-    `scenarios` are files of the study's robot, as resolved; `own` is that of the paper's damage.
+    `scenarios` are files of resolved scenarios of the study's robot; `own` has the paper's damage.
     """
     plan, seed, resolved = study.mapping, study.seed, [*map(Resolved.read, scenarios)]
     damage = Resolved.read(own)
@@ -38,7 +38,7 @@ def measure(study: Study, scenarios: Sequence[Path], own: Path) -> tuple[pd.Data
 
 
 def learn(study: Study, own: Path, settings: Sequence[Path]) -> tuple[pd.DataFrame, ...]:
-    """Replay and widths: what the improved system learns from a table, and with constant widths."""
+    """Tables of the improved system's learning: from recorded moves, and with constant widths."""
     damage, iterations = Resolved.read(own), study.experiments.iterations
     tuned = Tuned(study, settings)
     return (
@@ -50,7 +50,7 @@ def learn(study: Study, own: Path, settings: Sequence[Path]) -> tuple[pd.DataFra
 def _in_each(
     study: Study, scenarios: list[Resolved], name: str, measure: Callable[..., pd.DataFrame]
 ) -> pd.DataFrame:
-    """What is measured at random poses of each scenario."""
+    """The table of a measurement at random poses in each scenario."""
     tables = []
     for scenario in scenarios:
         controller, rng = scenario.controller(), generator(study.seed, "study", name)

@@ -1,4 +1,4 @@
-"""Is the coupling weak since the workspace is small and far from singularities (section 4)?"""
+"""Is coupling weak because the workspace is small and far from singularities (section 4)?"""
 
 import numpy as np
 import pandas as pd
@@ -8,21 +8,21 @@ from recalib.numerics.randomness import generator
 from replication.mapping.coupling import coupling
 from replication.scenarios.plants import Resolved
 
-# Of the workspace, along each axis of positions. In a box twice as long a UR10 reaches most poses,
-# some of them ten times as near to a singularity, by their condition numbers.
+# Relative sizes of the workspace along each position axis. At twice the size a UR10 still reaches
+# most poses, and the condition numbers of some are ten times as large.
 SIZES = 1, 2
 DRAWS = 10
 
 
 def nearness(resolved: Resolved, poses: int, seed: int) -> pd.DataFrame:
-    """The coupling in the workspace and in a larger one, with the distance from singularities.
+    """The coupling in the workspace and in a larger one, with condition numbers of Jacobians.
 
     Args:
-        poses: random ones in each draw and size.
+        poses: number of random poses in each draw and size.
 
-    Returns a row for each pose that is reached, with columns size, draw and condition, the
-    condition number of the nominal Jacobian, and those of `coupling`. All are in half-ranges of the
-    workspace itself: a larger one changes where poses are, and no unit.
+    Returns a row for each reachable pose, with columns size, draw and condition, the condition
+    number of the nominal Jacobian, and the columns of `coupling`. The units are half-ranges of the
+    original workspace for all sizes.
     """
     controller, tables = resolved.controller(), []
     robot, workspace = controller.robot, controller.robot.workspace

@@ -1,4 +1,4 @@
-"""Section 5: E_clas and E_upd, and the condition under which the paper has the latter smaller.
+"""Section 5: E_clas and E_upd, and the paper's condition for E_upd to be smaller.
 
 "This kind of cooperation works better than Ritter et al.'s when the new function is more similar to
 the original one than to a constant function", and likewise for Jacobians.
@@ -30,22 +30,22 @@ def ball(generator: np.random.Generator, points: int, dimensions: int, radius: f
 def propagation_errors(
     old: Function, new: Function, centre: np.ndarray, offsets: np.ndarray
 ) -> dict[str, float]:
-    """What section 5 compares, as means over the ball instead of integrals.
+    """The quantities that section 5 compares, as means over a ball instead of integrals.
 
-    With the constants that the rules have, from the centre c,
+    With the constants of the rules, which come from the centre c,
 
         classic (E_clas) = mean |f' - k_1|^2,  k_1 = f'(c),
         updated (E_upd) = mean |f' - f - k_2|^2,  k_2 = f'(c) - f(c),
 
-    and with the best of all constants, which are the means over the ball: to_constant, the least
-    mean |f' - k|^2, and to_original, the least mean |f' - f - k|^2. These say whether f' is more
-    similar to f or to a constant, whatever the rules are: the condition. Where f is a constant
-    itself, as the Jacobian of an intact robot's mapping is, both are equal but for rounding.
+    and with the best constants, which are means over the ball: to_constant, the least mean
+    |f' - k|^2, and to_original, the least mean |f' - f - k|^2. These show whether f' is more
+    similar to f or to a constant, independently of the rules: the paper's condition. If f itself is
+    constant, like the Jacobian of an intact robot's mapping, both are equal except for rounding.
 
     Args:
-        old, new: f and f', from points (n, 6) to values (n, ...): commands, or Jacobians for the
-            second half of the section.
-        centre: (6,) of the ball, where the winner is.
+        old, new: f and f', functions of points (n, 6) with values (n, ...): commands, or Jacobians
+            for the second half of the section.
+        centre: (6,) the centre of the ball: the winner's.
         offsets: (n, 6) points of the ball relative to its centre.
     """
     points = centre + offsets
@@ -65,7 +65,7 @@ def propagation_errors(
 
 
 def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
-    """The paper's damage made smaller or larger: links are shortened by what it says at most."""
+    """The paper's damage, smaller or larger; links are never shortened more than in the paper."""
     links = [
         damage.scaled(min(scale, 1)) for damage in damages if isinstance(damage, LinkShortening)
     ]
@@ -74,10 +74,10 @@ def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
 
 
 def propagation(resolved: Resolved, plan: Mapping, seed: int) -> pd.DataFrame:
-    """The integrals in balls about random centres, from slight to large damage.
+    """The integrals in balls about random centres, for slight to large damage.
 
-    Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
-    kind (theta, jacobian) and ball, with the columns of `propagation_errors`.
+    Returns a row for each scale, start (before the new damage: "intact", or "damaged" by the
+    paper's), kind (theta, jacobian) and ball, with the columns of `propagation_errors`.
     """
     controller = resolved.controller()
     robot, damages = controller.robot, damages_among(resolved.damages)

@@ -1,4 +1,4 @@
-"""Section 3: how far poses are from the nearest cell, by how the cells were placed.
+"""Section 3: the quantisation error of different placements of cells.
 
 "We can directly place the centers of the cells in a regular grid covering it, in order to minimize
 the quantization error. These centers do not need to move".
@@ -14,18 +14,18 @@ from recalib.learners.schedules import EXPONENTIAL, fall
 from recalib.numerics.randomness import generator
 
 SHAPE = (3, 3, 3)  # of a supernet and of a subnet (section 7)
-ITERATIONS = (200, 10_000)  # of the Kohonen rule: the paper's two trainings
+ITERATIONS = (200, 10_000)  # of the Kohonen rule, as in the paper's two trainings
 SEEDS = 10
 PLACING, EVALUATING = 10_000, 20_000  # poses for k-means, and poses for each measurement
 STARTS = 5  # of k-means, with each seed
 
-# From where to where the Kohonen rule falls: half the map is moved at first, one cell alone at the
-# end. Widths are in cells of the map.
+# Initial and final values of the Kohonen rule: at first half the map moves, at the end one cell.
+# Widths are in cells of the map.
 WIDTHS, RATES = (1.5, 0.2), (0.5, 0.02)
 
 
 def quantisation_error(poses: np.ndarray, centres: np.ndarray) -> float:
-    """Root mean square distance of poses (n, d) to the nearest of the centres (cells, d)."""
+    """Root mean square distance of poses (n, d) from the nearest of the centres (cells, d)."""
     offsets = poses - centres[nearest(poses, centres)]
     return float(np.sqrt(np.square(offsets).sum(axis=1).mean()))
 
@@ -33,16 +33,16 @@ def quantisation_error(poses: np.ndarray, centres: np.ndarray) -> float:
 def kohonen(starts: np.ndarray, poses: np.ndarray, shape: Sequence[int]) -> np.ndarray:
     """Centres (run, cells, d) after the first step of section 2, the classical Kohonen rule.
 
-    In iteration t of T, with the winner k, the nearest to the pose u, every cell i moves by
+    In iteration t of T, the winner k is the cell nearest to the pose u. Every cell i moves by
 
         w_i += c(t) exp(-|m_i - m_k|^2 / (2 s(t)^2)) (u - w_i),
 
     where m are the places of cells in the map; c and s fall exponentially over T.
 
     Args:
-        starts: (run, cells, d) centres before.
-        poses: (run, T, d).
-        shape: of the map, cells along each of its axes; the last axis is the fastest.
+        starts: (run, cells, d) initial centres.
+        poses: (run, T, d) poses to learn from.
+        shape: number of cells along each axis of the map; the last axis varies fastest.
     """
     places = np.indices(shape).reshape(len(shape), -1).T
     exponents = -0.5 * np.square(places[:, None] - places).sum(axis=-1)
@@ -58,8 +58,8 @@ def kohonen(starts: np.ndarray, poses: np.ndarray, shape: Sequence[int]) -> np.n
 
 
 def k_means(poses: np.ndarray, cells: int, random: np.random.Generator) -> np.ndarray:
-    """The best centres (cells, d) for poses (n, d) that k-means finds from `STARTS` starts."""
-    from sklearn.cluster import KMeans  # half a second: no start waits for it
+    """The best centres (cells, d) for poses (n, d) that k-means finds in `STARTS` attempts."""
+    from sklearn.cluster import KMeans  # importing it takes half a second
 
     state = int(random.integers(2**31))
     return KMeans(cells, n_init=STARTS, random_state=state).fit(poses).cluster_centers_
@@ -75,13 +75,13 @@ def quantisation(
 
     Args:
         shape: cells along each axis of the grid, and of the Kohonen map.
-        iterations: of the Kohonen rule, a placement each.
-        seeds: repetitions, each with poses of its own.
+        iterations: numbers of iterations of the Kohonen rule, one for each placement.
+        seeds: number of repetitions, each with its own poses.
 
     Returns a row for each placement and seed, with columns placement, seed and distance, in
-    workspace coordinates. Placements: the grids "boxes" and "faces" (`CENTRES`); "kohonen_T", from
-    uniform random starts; "kmeans", a bound for the best there is. Those of a seed are measured on
-    the same poses, and placed by others.
+    workspace coordinates. Placements are the grids "boxes" and "faces" (`CENTRES`), "kohonen_T",
+    from uniform random starts, and "kmeans", a bound for the optimum. All placements of a seed are
+    measured on the same poses, which differ from the poses that placed them.
     """
     cells, dimensions = int(np.prod(shape)), len(shape)
     randoms = {

@@ -1,4 +1,4 @@
-"""How many joint angles reach a pose, and how many commands lead there (section 3)?"""
+"""The numbers of joint angles and of commands that reach a pose (section 3)."""
 
 import numpy as np
 import pandas as pd
@@ -8,7 +8,7 @@ from recalib.nominal.chain import TOLERANCE
 from recalib.nominal.controller import Controller
 
 STARTS = 50  # of Newton's method for each pose, anywhere in joint space
-SAME = 1e-6  # rad: joint angles that differ by less are the same
+SAME = 1e-6  # rad: smaller differences of joint angles are ignored
 
 
 def joint_solutions(
@@ -16,10 +16,10 @@ def joint_solutions(
 ) -> np.ndarray:
     """All joint angles (n, joint) [rad] found for a pose (4, 4) [m] from starts (start, joint).
 
-    They are what the encoders show; those that differ by full turns count once.
+    These are encoder angles; solutions that differ by full turns count once.
 
     Args:
-        within: lower and upper limits of the joints, each (joint,).
+        within: lower and upper joint limits, each (joint,).
     """
     angles, residuals = arm.chain.solve(np.tile(pose, (len(starts), 1, 1)), starts)
     candidates = angles[residuals <= TOLERANCE]
@@ -32,24 +32,24 @@ def joint_solutions(
 
 
 def are_same(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Whether joint angles (..., joint) [rad] are the same but for full turns."""
+    """Whether joint angles (..., joint) [rad] are the same except for full turns."""
     return np.abs(np.sin((first - second) / 2)).max(axis=-1) <= SAME / 2
 
 
 def solutions(
     controller: Controller, arm: DamagedArm, desired: np.ndarray, random: np.random.Generator
 ) -> pd.DataFrame:
-    """For each of the desired poses (n, 6) how many joint angles reach it, and how many commands.
+    """The numbers of joint angles and of commands that reach each of the desired poses (n, 6).
 
-    A command reaches it if the controller answers with such joint angles. The damaged arm must not
-    be redundant, nor have deflections.
+    A command reaches a pose if the controller chooses joint angles that reach it. The damaged arm
+    must not be redundant, nor have deflections.
     """
     robot = controller.robot
     workspace, rows = robot.workspace, []
     poses = workspace.to_poses(desired)
-    for pose, own in zip(poses, controller.solve(poses).angles, strict=True):
-        anywhere = random.uniform(-np.pi, np.pi, (STARTS, len(own)))
-        starts = np.vstack([own, anywhere])
+    for pose, nominal in zip(poses, controller.solve(poses).angles, strict=True):
+        anywhere = random.uniform(-np.pi, np.pi, (STARTS, len(nominal)))
+        starts = np.vstack([nominal, anywhere])
         angles = joint_solutions(arm, pose, starts, (robot.lower, robot.upper))
         commands = workspace.to_coordinates(robot.arm.forward(angles))
         answers = controller.targets(commands[None])

@@ -1,4 +1,4 @@
-"""The true mapping that a learner is after: from desired poses to commands that reach them."""
+"""The true mapping, which learners approximate: from desired poses to commands that reach them."""
 
 import numpy as np
 
@@ -6,13 +6,13 @@ from recalib.damaged.damage import DamagedArm
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
 
-STEP = 1e-4  # of the central differences, in workspace coordinates: 25 um
+STEP = 1e-4  # step of the central differences, in workspace coordinates: 25 um
 
 
 def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> np.ndarray:
-    """The commands (n, 6) that take a damaged arm to the desired poses (n, 6); NaN if none does.
+    """The commands (n, 6) that take a damaged arm to the desired poses (n, 6), or NaN if none does.
 
-    The arm must be without deflections, and not redundant: a pose determines no joint angles then.
+    The arm must have no deflections and not be redundant, so that a pose determines joint angles.
     """
     workspace = controller.robot.workspace
     poses = workspace.to_poses(desired)

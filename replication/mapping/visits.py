@@ -1,4 +1,4 @@
-"""Expected learning of a cell in one iteration (section 6): Monte Carlo against equation (10)."""
+"""Expected learning of a cell in one iteration (section 6): equation (10) against Monte Carlo."""
 
 from collections.abc import Sequence
 
@@ -9,7 +9,7 @@ from recalib.learners.schedules import DIMENSIONS, expected_learning
 from recalib.numerics.randomness import generator
 
 WIDTHS = (0.1, 0.15, 0.2, 0.3, 0.5, 1.0)  # of the neighbourhood, in workspace coordinates
-DISTANCES = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0)  # to a face; 1 is the centre
+DISTANCES = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0)  # from a face; the centre is at 1
 SAMPLES = 1_000_000
 
 
@@ -19,10 +19,10 @@ def visits(
     distances: Sequence[float] = DISTANCES,
     samples: int = SAMPLES,
 ) -> pd.DataFrame:
-    """Simulated L over the one of (10), for cells at these distances from a face of the workspace.
+    """The ratio of simulated L to L in (10), for cells at `distances` from a face of the workspace.
 
-    Widths are those of the neighbourhood, samples the winners drawn. At a distance of 1 is the
-    centre of the workspace [-1, 1]^3.
+    `widths` are widths of the neighbourhood; `samples` is the number of random winners. The centre
+    of the workspace [-1, 1]^3 is at a distance of 1.
     """
     winners = generator(seed, "visits").uniform(-1, 1, (samples, DIMENSIONS))
     rows = []

@@ -1,4 +1,4 @@
-"""Pages: what each says of the results, in words."""
+"""The pages of a study: results in words, written from templates."""
 
 import lazy_loader
 

@@ -1,7 +1,7 @@
-"""The archive: code, results, recordings and article in one file that says what they are.
+"""The archive: code, results, recordings and article in one file, with their metadata.
 
 `python -m replication.pages.archive results/archive.zip` packs the committed files and the results
-of the shipped study as an RO-Crate: each result has the job that made it, its inputs and its times.
+of the shipped study as an RO-Crate. For each result it lists the job, its inputs, start and end.
 The same results give the same bytes.
 """
 
@@ -28,8 +28,8 @@ from recalib.files.storage import whole
 from replication.config import shipped
 from replication.plots.figures import Figure
 
-RESULTS, PUBLISHED = Path(shipped.RESULTS), Path("published")  # here, and in the archive
-NOTES = Path(".snakemake/metadata")  # what Snakemake knows of each file that it made
+RESULTS, PUBLISHED = Path(shipped.RESULTS), Path("published")  # folders here and in the archive
+NOTES = Path(".snakemake/metadata")  # Snakemake's records of the files that it made
 CHOSEN = (
     "summary.csv",
     "claims.json",
@@ -43,30 +43,30 @@ CHOSEN = (
     "runs/*/*/*.parquet",
     "recordings/*.rrd",
 )
-REPEATABLE = {".csv", ".json", ".parquet", ".svg"}  # whose bytes follow from the code
-APART = {Figure.BENCHMARK.file, Figure.REAL_ARM.file}  # which have targets of their own
+REPEATABLE = {".csv", ".json", ".parquet", ".svg"}  # identical bytes in every run
+APART = {Figure.BENCHMARK.file, Figure.REAL_ARM.file}  # not made by the default target
 PROFILES = {
     "https://w3id.org/ro/wfrun/process/0.5": "Process Run Crate",
     "https://w3id.org/ro/wfrun/workflow/0.5": "Workflow Run Crate",
     "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
 }
 LICENCE = "https://spdx.org/licenses/MIT"
-MOMENT = (1980, 1, 1, 0, 0, 0)  # of all files in the archive
+MOMENT = (1980, 1, 1, 0, 0, 0)  # time stamp of all files in the archive
 
 
 def committed() -> list[Path]:
-    """The files that git knows."""
+    """The files that are tracked by git."""
     listed = subprocess.run(["git", "ls-files", "-z"], check=True, capture_output=True, text=True)
     return sorted(Path(name) for name in listed.stdout.split("\0") if Path(name).is_file())
 
 
 def chosen() -> list[Path]:
-    """The results that are kept."""
+    """The results to archive."""
     return sorted(path for pattern in CHOSEN for path in RESULTS.glob(pattern) if path.is_file())
 
 
 def checksums() -> str:
-    """What `sha256sum --check` reads, of the results that another run gives to the byte."""
+    """Input of `sha256sum --check` for the results that are identical in every run."""
     return "".join(
         f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(RESULTS)}\n"
         for path in chosen()
@@ -75,7 +75,7 @@ def checksums() -> str:
 
 
 def notes() -> Iterator[tuple[Path, Mapping[str, Any]]]:
-    """Each file that Snakemake made, and how."""
+    """Each file that Snakemake made, with Snakemake's record of it."""
     for path in sorted(NOTES.iterdir()):
         name = base64.b64decode(path.name).decode()
         yield Path(name), json.loads(path.read_text(encoding="utf-8"))
@@ -86,8 +86,8 @@ def _moment(seconds: float) -> str:
 
 
 def crate_of(citation: Mapping[str, Any]) -> ROCrate:
-    """What the archive says of itself: the workflow, the files, and the run that made them."""
-    crate = ROCrate(version="1.1")  # the one on which the profiles of runs are built
+    """The archive's metadata: the workflow, the files, and the run that made them."""
+    crate = ROCrate(version="1.1")  # the version that the profiles of runs require
     crate.name = citation["title"]
     crate.description = "Code, results, recordings and article of a replication, and its run."
     licence = {"@type": "CreativeWork", "name": "MIT"}
@@ -129,7 +129,7 @@ def _add_run(
     results: Mapping[Path, Path],
     authors: list[Person],
 ) -> None:
-    """An action for the whole run, and one for each job whose results are kept."""
+    """Add an action for the whole run, and one for each job whose results are archived."""
     noted = [(path, note) for path, note in notes() if path in results and note["endtime"]]
     properties = {"name": "A run of the workflow", "agent": authors}
     if noted:

@@ -9,11 +9,11 @@ from recalib.files.storage import whole
 
 
 def typeset(source: Path, article: Path, project: Path = Path()) -> None:
-    """Write the article as a PDF, tagged for screen readers, with the fonts of its figures alone.
+    """Write the article as a PDF, tagged for screen readers, with only the fonts of its figures.
 
-    Its `source` is in Typst; paths in there begin at the project's folder.
+    `source` is in Typst; its paths are relative to the project's folder.
 
-    Raises typst.TypstError: a reference, a figure or a sign that Typst does not know.
+    Raises typst.TypstError for a reference, a figure or a symbol that Typst does not know.
     """
     with whole(article) as temporary:
         typst.compile(

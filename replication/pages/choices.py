@@ -1,4 +1,4 @@
-"""Choices of config.yaml, each with the reason that is in a comment next to it."""
+"""Choices in config.yaml, each with its reason, which is in a comment next to it."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -12,25 +12,25 @@ from replication.config.campaign import Factors
 class Choice(NamedTuple):
     """A key of the configuration."""
 
-    name: str  # its path, as in "search.trials"; of a factor of the campaign, what it is
-    values: tuple[str, ...]  # the value as it is written; of a factor, its levels
-    reason: str  # the comment above the key and behind it
+    name: str  # its path, as in "search.trials"; for a factor of the campaign, its description
+    values: tuple[str, ...]  # the value as text; for a factor, its levels
+    reason: str  # the comments above the key and after the value
 
 
 def read_choices(path: Path) -> dict[str, Choice]:
-    """The keys of a configuration that have a comment, by their paths."""
+    """The keys of a configuration that have comments, by their paths."""
     text = path.read_text(encoding="utf-8")
     choices = _choices(yaml.compose(text), "", text)
     return {choice.name: choice for choice in choices if choice.reason}
 
 
 def factor(name: str) -> str:
-    """What a factor of the campaign is."""
+    """The description of a factor of the campaign."""
     return str(Factors.model_fields[name].description).rstrip(".")
 
 
 def alternatives(factors: Factors, choices: Mapping[str, Choice]) -> list[Choice]:
-    """The factors of the campaign, the level of the reference study first."""
+    """The factors of the campaign with their levels; the reference study's level comes first."""
     return [
         Choice(
             factor(name),
@@ -52,7 +52,7 @@ def _choices(node: yaml.MappingNode, above: str, text: str) -> Iterator[Choice]:
 
 
 def _above(key: yaml.Node, lines: list[str]) -> str:
-    """The lines of comment directly above a key, as one."""
+    """The comment lines directly above a key, joined."""
     first = last = key.start_mark.line
     while lines[first - 1].startswith(f"{' ' * key.start_mark.column}# "):
         first -= 1
@@ -60,7 +60,7 @@ def _above(key: yaml.Node, lines: list[str]) -> str:
 
 
 def _behind(key: yaml.Node, value: yaml.Node, lines: list[str]) -> str:
-    """The comment in the last line of a value, or in that of the key of a block."""
+    """The comment on the last line of a value or, for a block, on the line of its key."""
     block = isinstance(value, yaml.CollectionNode) and not value.flow_style
     mark = key.end_mark if block else value.end_mark
     _, _, comment = lines[mark.line][mark.column :].partition("  # ")
@@ -68,7 +68,7 @@ def _behind(key: yaml.Node, value: yaml.Node, lines: list[str]) -> str:
 
 
 def _written(value: yaml.Node, text: str) -> str:
-    """A value as it stands in the file, a block in one line."""
+    """A value as it is written in the file; a block is joined into one line."""
     lines = text[value.start_mark.index : value.end_mark.index].splitlines()
     parts = (line.partition("  # ")[0].strip().removeprefix("- ") for line in lines)
     return ", ".join(filter(None, parts))

@@ -1,4 +1,4 @@
-"""Tables of the benchmark and of the real arm, as pages show them."""
+"""Tables of the benchmark and of the real arm for pages."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -12,16 +12,16 @@ from replication.training.competitors import label_of, peers
 from replication.training.measured import BOTH, ERRORS
 
 HYBRID = "hybrid"
-WORSE = 1.1  # times the best peer's error is worse
-NEGLIGIBLE = 1e-4  # cm and degrees: below it, errors are rounding
-FIRST = 4  # moves from which the hybrid is held to be as good as the best peer
+WORSE = 1.1  # factor: a larger ratio to the best peer's error counts as worse
+NEGLIGIBLE = 1e-4  # cm and degrees: smaller errors are rounding
+FIRST = 4  # moves; with fewer, the hybrid is not compared with the best peer
 
 
-Table = dict[str, list[str]]  # of a page: a row's cells by its name
+Table = dict[str, list[str]]  # a page's table: cells by the name of their row
 
 
 class Worse(NamedTuple):
-    """A comparison in which the hybrid is worse than the best other peer, with the factor."""
+    """A comparison in which the hybrid is worse than the best other peer, with the error ratio."""
 
     scenario: str
     moves: int
@@ -29,7 +29,7 @@ class Worse(NamedTuple):
 
 
 class Benchmark:
-    """What the benchmark found, from its two tables. The threshold is in cm and degrees."""
+    """The results of the benchmark, from its two tables. The threshold is in cm and degrees."""
 
     def __init__(self, plan: Plan, errors: pd.DataFrame, reached: pd.DataFrame):
         self.errors, self.threshold = errors, min(plan.thresholds)
@@ -66,7 +66,7 @@ class Benchmark:
 
 
 def words(scenario: str) -> str:
-    """A scenario's name for people."""
+    """A scenario's name as text."""
     return scenario.replace("_", " ")
 
 
@@ -93,7 +93,7 @@ def on_real_arm(table: pd.DataFrame, poses: Sequence[int]) -> Table:
 
 
 def ends_on_twin(table: pd.DataFrame) -> Table:
-    """Of each learner on the twin, the number of its moves and its last error [mm]."""
+    """The number of moves and the final error [mm] of each learner on the twin."""
     last = table[table["twin"]].sort_values("poses").groupby("learner", sort=False).last()
     return {
         label_of(str(learner)): [short(row["poses"]), f"{row['position_error_mm']:.3f}"]

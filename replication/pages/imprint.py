@@ -1,7 +1,7 @@
 """Authors and address of the project: fields of pyproject.toml that a release needs.
 
-`python -m replication.pages.imprint` refuses to publish while one of them is empty, or while
-another file has something else.
+`python -m replication.pages.imprint` fails while one of them is missing, or if another file
+contradicts them.
 """
 
 import json
@@ -15,31 +15,31 @@ import yaml
 
 import recalib
 
-NOBODY = "The recalib authors"  # in pyproject.toml until somebody publishes
+NOBODY = "The recalib authors"  # a placeholder in pyproject.toml until publication
 
 
 class Imprint(NamedTuple):
-    """Who publishes, and where."""
+    """The authors, and the address of the repository."""
 
-    authors: tuple[str, ...]  # names, in their order
-    repository: str  # address of the code; empty until somebody publishes
+    authors: tuple[str, ...]  # names, in order
+    repository: str  # address of the code; empty until publication
 
     @classmethod
     def read(cls, project: Path = Path()) -> Self:
-        """That of the project in a folder."""
+        """The imprint of the project in a folder."""
         fields = tomllib.loads((project / "pyproject.toml").read_text(encoding="utf-8"))["project"]
         names = tuple(author["name"] for author in fields["authors"])
         return cls(names, fields.get("urls", {}).get("Repository", ""))
 
 
 def missing(project: Path = Path()) -> list[str]:
-    """What a release lacks, a sentence each."""
+    """Missing or contradictory fields, in one sentence each."""
     imprint = Imprint.read(project)
-    lacking = []
+    mistakes = []
     if NOBODY in imprint.authors:
-        lacking.append(f"pyproject.toml: authors are {NOBODY!r}; expected: names of people.")
+        mistakes.append(f"pyproject.toml: authors are {NOBODY!r}; expected: names of people.")
     if not re.fullmatch(r"https://\S+[^/\s]", imprint.repository):
-        lacking.append(
+        mistakes.append(
             f"pyproject.toml: Repository in [project.urls] is {imprint.repository!r}; expected:"
             " the address of the code, such as https://github.com/OWNER/recalib."
         )
@@ -49,12 +49,12 @@ def missing(project: Path = Path()) -> list[str]:
         "repository": imprint.repository,
     }
     for name, found in _elsewhere(project).items():
-        lacking += [
+        mistakes += [
             f"{name}: {field} is {value!r}; expected: {expected[field]!r}."
             for field, value in found.items()
             if value != expected[field]
         ]
-    return lacking
+    return mistakes
 
 
 def _elsewhere(project: Path) -> dict[str, dict[str, Any]]:
@@ -75,13 +75,13 @@ def _elsewhere(project: Path) -> dict[str, dict[str, Any]]:
 
 
 def _name(author: dict[str, str]) -> str:
-    """Of a person or a group, in the words of CITATION.cff or of Zenodo: "Family, Given"."""
+    """The name of a person or group, from CITATION.cff or Zenodo's "Family, Given"."""
     if "given-names" in author:
         return f"{author['given-names']} {author['family-names']}"
     return " ".join(reversed(author["name"].split(", ")))
 
 
 if __name__ == "__main__":
-    _lacking = missing()
-    print("\n".join(_lacking) or "Authors, address and version are the same everywhere.")
-    sys.exit(bool(_lacking))
+    _mistakes = missing()
+    print("\n".join(_mistakes) or "Authors, address and version are the same everywhere.")
+    sys.exit(bool(_mistakes))

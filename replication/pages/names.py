@@ -1,9 +1,9 @@
-"""The pages of a study, by name: without what it takes to write them."""
+"""The names of a study's pages, in a module without the imports that writing needs."""
 
 from replication.config.shipped import SHIPPED
 from replication.config.study import Study
 
-OUTCOME = "outcome.txt"  # what a run prints when it ends
+OUTCOME = "outcome.txt"  # a run prints this page when it ends
 EVERYWHERE = (OUTCOME, "findings.md")
 OF_SHIPPED = ("README.md", "index.md", "choices.md", "deviations.md", "article.typ")
 

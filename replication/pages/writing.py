@@ -1,6 +1,6 @@
-"""Writes the pages of a study from their templates, and publishes those of the shipped one.
+"""Write the pages of a study from their templates, and publish the pages of the shipped study.
 
-No measured number in them is typed.
+All measured numbers come from results; none is typed.
 """
 
 import re
@@ -19,13 +19,13 @@ from replication.pages.contents import Contents
 from replication.plots.figures import Figure
 
 TEMPLATES = "workflow/templates"
-MARKUP = re.compile(r"[\\*_`$#@<>\[\]~]|//")  # of Typst: in a result it is text
+MARKUP = re.compile(r"[\\*_`$#@<>\[\]~]|//")  # Typst's markup, which is plain text in results
 
 
 def write(
     study: Study, pages: Sequence[Path], figures: Sequence[Path] = (), project: Path = Path()
 ) -> None:
-    """Write pages, each from the template of its name; it shows those of the figures it knows."""
+    """Write pages, each from the template of its name. Templates show only the given figures."""
     contents = Contents(study, figures, project)
     for path in pages:
         text = render(path.name, contents)
@@ -34,7 +34,7 @@ def write(
 
 
 def publish(sources: Sequence[Path], copies: Sequence[Path]) -> None:
-    """Copy files to where they are committed, each whole or not at all: none ever disappears."""
+    """Copy files to their committed places, each completely or not at all."""
     for source, copy in zip(sources, copies, strict=True):
         with whole(copy) as temporary:
             shutil.copyfile(source, temporary)
@@ -49,7 +49,7 @@ def render(page: str, contents: Contents) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-        autoescape=typeset,  # a macro's text is then Markup, which stays as it is
+        autoescape=typeset,  # the text of a macro is then Markup and not escaped again
         finalize=_escaped if typeset else None,
     )
     environment.filters["quoted"] = _quoted
@@ -66,13 +66,13 @@ def render(page: str, contents: Contents) -> str:
 
 
 def _quoted(value: str) -> Markup:
-    """A string of Typst's code."""
+    """A string literal in Typst code."""
     text = value.replace("\\", "\\\\").replace('"', '\\"')
     return Markup(f'"{text}"')
 
 
 def _escaped(value: object) -> Markup:
-    """A value whose signs are not markup of Typst."""
+    """A value as text, with Typst's markup escaped."""
     if isinstance(value, Markup):
         return value
     return Markup(MARKUP.sub(lambda sign: "\\" + "\\".join(sign[0]), str(value)))

@@ -1,4 +1,4 @@
-"""Figures: what each reads is declared in `registry`; drawing starts when it is asked for."""
+"""Figures of results. `figures` lists them; their drawing code is imported when it is needed."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Figures of methods for today: in simulation, and on a real arm."""
+"""Figures that compare the paper's and today's learners, in simulation and on a real arm."""
 
 from textwrap import fill
 
@@ -15,10 +15,10 @@ SHOWN = {
     "links_encoders": "the paper's damage",
     "links_encoders_gears_sag": "gears and sag as well",
 }
-LINE = 20  # letters of a panel's title
-UNDER = "geometric"  # the hybrid is often just as good, and drawn upon it
-FAR = 9  # from one number of poses to the next, in relation to it
-SMALLEST = 1e-4  # cm: below it, errors are drawn at the edge
+LINE = 20  # letters in a line of a panel's title
+UNDER = "geometric"  # drawn wider, because the curve of the hybrid often covers it
+FAR = 9  # relative step between numbers of poses, above which a curve is interrupted
+SMALLEST = 1e-4  # cm: smaller errors are drawn at the edge
 REAL = "position_error_mm"
 
 
@@ -52,7 +52,7 @@ def real_arm(evidence: Evidence) -> Figure:
     figure, axes = plt.subplots(figsize=(WIDTH, 3.8))
     styles = styles_of(table["learner"])
     for (learner, twin), results in table.groupby(["learner", "twin"], sort=False):
-        # no line where nothing was measured in between
+        # no line across a large gap without measurements
         pieces = (results["poses"].pct_change() > FAR).cumsum()
         for number, piece in results.groupby(pieces):
             label = styles[learner].label + (" on a twin" if twin else "")
@@ -78,7 +78,7 @@ def _draw(
     under: bool,
     label: str | None = "",
 ) -> None:
-    """Means and intervals of a learner; those that lie under another one's are wider."""
+    """Draw means and intervals of a learner; with `under`, wider, as another may cover them."""
     low, middle, high = (table[f"{error}{end}"].clip(SMALLEST) for end in ("_low", "", "_high"))
     band(axes, places, (low, high), style.color)
     axes.plot(

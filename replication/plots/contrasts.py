@@ -1,4 +1,4 @@
-"""The figure of the setups: what each claim says, in every one of them."""
+"""The figure of the setups: the number of each claim in every setup."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -18,11 +18,11 @@ from replication.judgement.verdicts import Verdict
 from replication.plots.palette import BORDER, HOLDS, NEUTRAL
 from replication.plots.style import MARK, WIDTH, logarithmic, name_right, name_rows, spread
 
-ROW = 0.28  # inches
+ROW = 0.28  # inches, height of a row
 DECADES = 0.01, 0.1, 1, 10, 100
-TICKS = sorted([*DECADES, 0.03, 0.3, 3, 30])  # where there is room for them
-ROOM = 100  # the greatest end over the least one
-MARGIN = 1.15  # times the most that is shown
+TICKS = sorted([*DECADES, 0.03, 0.3, 3, 30])  # if there is room for them
+ROOM = 100  # ratio of an axis's ends, below which there is room
+MARGIN = 1.15  # factor from the extreme numbers to the ends of an axis
 LABELS: Mapping[str, str] = {  # of the claims' numbers, by claim
     "large-neighbourhoods": "$g_k$ as tuned / wide",
     "no-good-solution": "tuned for both / for each",
@@ -44,27 +44,27 @@ LABELS: Mapping[str, str] = {  # of the claims' numbers, by claim
 
 
 class Row(NamedTuple):
-    """A claim that setups decide."""
+    """A claim whose verdict depends on setups."""
 
-    claim: OfSetups  # what it says
-    finding: Finding  # what was found
-    numbers: np.ndarray  # (setup,) what was measured
+    claim: OfSetups  # the claim
+    finding: Finding  # the finding about it
+    numbers: np.ndarray  # (setup,) its number in each setup
 
     @property
     def is_share(self) -> bool:
-        """Whether its number is what remains of an error, not a ratio of errors."""
+        """Whether its number is the remaining share of an error, not a ratio of errors."""
         return isinstance(self.claim.estimand, Remaining)
 
     @property
     def result(self) -> str:
-        """Its mean and its verdict."""
+        """The mean number and the verdict, as text."""
         value = self.finding.estimates[0].value
         number = f"{100 * value:.2g} %" if self.is_share else f"{value:.3g}"
         return f"{number} {self.finding.verdict}"
 
 
 def rows(evidence: Evidence) -> list[Row]:
-    """All claims that setups decide by errors, in the paper's order."""
+    """All claims whose verdicts depend on errors in setups, in the paper's order."""
     findings = evidence.findings()
     return [
         Row(claim, findings[claim.id], np.exp(claim.values(evidence).model().numbers))
@@ -76,7 +76,7 @@ def rows(evidence: Evidence) -> list[Row]:
 
 
 def contrasts(evidence: Evidence) -> Figure:
-    """The number of each claim in all setups; above: ratios of errors, below: remaining errors."""
+    """The number of each claim in all setups; top: ratios of errors, bottom: remaining shares."""
     shown = rows(evidence)
     parts = [[row for row in shown if row.is_share is share] for share in (False, True)]
     counts = [len(part) for part in parts]

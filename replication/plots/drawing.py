@@ -1,4 +1,4 @@
-"""Draws the figures of a study into files."""
+"""Draw the figures of a study into files."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,7 +19,7 @@ def drawn(figure: Figure, evidence: Evidence) -> matplotlib.figure.Figure:
 
 
 def draw(study: Study, figures: Sequence[Path]) -> None:
-    """Draw figures into files, each of which has the name of one. Raises NotMeasured."""
+    """Draw figures into files that have the figures' names. Raises NotMeasured."""
     evidence, by_name = Evidence(study), {figure.file: figure for figure in Figure}
     with plt.rc_context(STYLE):
         for name in dict.fromkeys(path.stem for path in figures):

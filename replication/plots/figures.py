@@ -1,4 +1,4 @@
-"""Which figures there are; `drawing` draws them. Words: workflow/templates/figures.yaml."""
+"""The list of figures. `drawing` draws them; captions are in workflow/templates/figures.yaml."""
 
 from enum import Enum
 from pathlib import Path
@@ -8,7 +8,7 @@ from replication.config.study import Study
 
 
 class Figure(Enum):
-    """A figure, by the module and the function that draw it; numbered in this order."""
+    """A figure, with the module and the function that draw it. The order gives the numbers."""
 
     FIGURE_1 = "learning:figure_1"
     STEPS = "steps:steps"
@@ -22,24 +22,24 @@ class Figure(Enum):
 
     @property
     def number(self) -> int:
-        """By which pages call it."""
+        """The figure's number on pages."""
         return [*Figure].index(self) + 1
 
     @property
     def file(self) -> str:
-        """The name of its files, without a suffix."""
+        """The name of its files without suffix."""
         return f"figure{self.number}"
 
 
-APART = Figure.BENCHMARK, Figure.REAL_ARM  # of targets of their own
+APART = Figure.BENCHMARK, Figure.REAL_ARM  # not made by the default target
 
 
 def figures_of(study: Study) -> list[str]:
-    """The files, without suffix, of the figures for which a default run of a study has results."""
-    lacking = {*APART}
+    """The figures for which a default run of a study has results, as file names without suffix."""
+    missing = {*APART}
     if not study.experiments.evidence:
-        lacking |= {Figure.MAPPING, Figure.AMOUNTS}
+        missing |= {Figure.MAPPING, Figure.AMOUNTS}
     judged = study.experiments.evidence and study.name == SHIPPED and Path(OUTCOMES).exists()
     if not judged:
-        lacking |= {Figure.STEPS, Figure.CONTRASTS}
-    return [figure.file for figure in Figure if figure not in lacking]
+        missing |= {Figure.STEPS, Figure.CONTRASTS}
+    return [figure.file for figure in Figure if figure not in missing]

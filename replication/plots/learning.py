@@ -1,4 +1,4 @@
-"""Figures of learning: how both errors fall, and what remains by scenario and size of damage."""
+"""Figures of learning: the course of both errors, and remaining errors by scenario and damage."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -22,8 +22,8 @@ from replication.plots.style import (
 from replication.training.measured import ERRORS
 from replication.training.plan import leading, places
 
-NEAR = 1.4  # times: two numbers next to an axis that would stand on each other
-FLOOR = 1e-3  # cm and degrees: below it an error is rounding
+NEAR = 1.4  # ratio of two numbers, below which their labels would overlap
+FLOOR = 1e-3  # cm and degrees: smaller errors are rounding
 MOVES = "iterations (two moves each)"
 
 
@@ -33,7 +33,7 @@ def curves(history: pd.DataFrame, error: ErrorStyle) -> pd.DataFrame:
 
 
 def figure_1(evidence: Evidence) -> Figure:
-    """Figure 1 of the paper: both errors in the paper's damage; right: on a logarithmic scale."""
+    """Figure 1 of the paper: both errors with the paper's damage; right: on a logarithmic scale."""
     figure, panels = plt.subplots(1, 2, figsize=(WIDTH, 2.5))
     history = evidence.history(*leading(evidence.study))
     means = history.groupby("iteration")[list(ERRORS)].mean()
@@ -51,7 +51,7 @@ def figure_1(evidence: Evidence) -> Figure:
 
 
 def _label_ends(axes: Axes, means: pd.DataFrame, row: int, aside: float) -> None:
-    """Both errors at the beginning or at the end, one above the other."""
+    """Write both errors next to the curves' beginnings or ends, without overlap."""
     errors = means.iloc[row]
     close = errors.max() < NEAR * errors.min()
     for error in BOTH:
@@ -100,16 +100,16 @@ def learners(evidence: Evidence) -> Figure:
 
 def scenarios(evidence: Evidence) -> Figure:
     """Both errors before and after learning in every scenario, and on every robot."""
-    own = evidence.study.experiments.learners
+    main = evidence.study.experiments.learners
     planned = places(evidence.study)
-    trained = [place for place in planned if own.keys() <= planned[place].keys()]
+    trained = [place for place in planned if main.keys() <= planned[place].keys()]
     names = [
         words(place.scenario)
         + (f",\non the {place.robot.upper()}" if place.robot != evidence.study.robot else "")
         for place in trained
     ]
     rows = np.arange(len(trained))[::-1]
-    styles = styles_of_trainings((name, length) for name in own for length in own[name])
+    styles = styles_of_trainings((name, length) for name in main for length in main[name])
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(WIDTH, 1.4 + 0.34 * len(rows)))
     offsets = 0.24 * (np.arange(len(styles))[::-1] - (len(styles) - 1) / 2)
     for axes, error in zip(panels, BOTH, strict=True):

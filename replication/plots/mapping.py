@@ -1,4 +1,4 @@
-"""The figure of what the paper says about the damage and the mapping, before any learning."""
+"""The figure of the paper's claims about damage and mapping, before any learning."""
 
 from contextlib import suppress
 
@@ -19,15 +19,15 @@ from replication.training.measured import ERRORS
 
 COMMANDS = Style(NEUTRAL, "o", SOLID, "commands")
 JACOBIANS = Style(GREY, "s", DASHED, "Jacobians")
-ASIDE = 0.22  # of a row: position above orientation commands
+ASIDE = 0.22  # of a row's height: position commands above, orientation commands below
 
 
 def mapping(evidence: Evidence) -> Figure:
-    """Initial errors by assignment; coupling; E_upd over E_clas; equation (10)."""
+    """Initial errors of assignments, coupling, E_upd / E_clas, and equation (10)."""
     figure, panels = plt.subplots(2, 2, figsize=(WIDTH, 4.6))
     free = [*panels.ravel()]
     for draw in (_assignments, _coupling, _propagation, _visits):
-        with suppress(NotMeasured):  # the first two are not of every study
+        with suppress(NotMeasured):  # some studies do not have the first two
             draw(free[0], evidence)
             free.pop(0)
     for axes in free:
@@ -36,7 +36,7 @@ def mapping(evidence: Evidence) -> Figure:
 
 
 def _assignments(axes: Axes, evidence: Evidence) -> None:
-    """The initial errors of every assignment of the paper's damage to the study's robot."""
+    """The initial errors of all assignments of the paper's damage to the study's robot."""
     table = evidence.assignments()
     errors = table[list(ERRORS)].to_numpy()
     axes.scatter(
@@ -60,7 +60,7 @@ def _assignments(axes: Axes, evidence: Evidence) -> None:
 
 
 def _coupling(axes: Axes, evidence: Evidence) -> None:
-    """In each setup, how much the other coordinates change commands, by robot."""
+    """The coupling of both commands in each setup, by robot."""
     table = evidence.table(f"{CAMPAIGN}/untrained.csv").set_index("setup")
     robots = evidence.levels()["robot"].reindex(table.index)
     names = [*robots.unique()]
@@ -80,7 +80,7 @@ def _coupling(axes: Axes, evidence: Evidence) -> None:
 
 
 def _propagation(axes: Axes, evidence: Evidence) -> None:
-    """E_upd over E_clas on the true mappings, from slight to large damage."""
+    """E_upd / E_clas for the true mappings, from slight to large damage."""
     ratios = integral_ratios(evidence.mapping("propagation"))
     for style, line, aside in (
         (COMMANDS, ratios["theta", "intact"], (8, -3)),
@@ -99,7 +99,7 @@ def _propagation(axes: Axes, evidence: Evidence) -> None:
 
 
 def _visits(axes: Axes, evidence: Evidence) -> None:
-    """Simulated learning over that of equation (10), by the distance of a cell to the border."""
+    """The ratio of simulated to expected learning, (10), against a cell's distance from a face."""
     table = evidence.mapping("visits")
     axes.axvline(AWAY, **BORDER)
     axes.axhline(1, linestyle=DASHED, **BORDER)

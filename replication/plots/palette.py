@@ -1,4 +1,4 @@
-"""What colours and signs mean in every figure: also in black and white, and to the colour-blind."""
+"""Colours and markers of all figures, distinct in black and white and to the colour-blind."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -14,9 +14,9 @@ SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
 @dataclass(frozen=True)
 class Style:
-    """How a learner or an error is shown."""
+    """The style of a learner or an error."""
 
-    color: str  # unlike that of all else in a figure, to the colour-blind, too; a test measures it
+    color: str  # distinct from others in a figure, also to the colour-blind; a test checks this
     marker: str  # empty for none
     linestyle: Any
     label: str
@@ -32,7 +32,7 @@ class Style:
 
 @dataclass(frozen=True)
 class ErrorStyle(Style):
-    """How one of the two errors is shown; its label is that of an axis."""
+    """The style of one of the two errors; its label is for an axis."""
 
     column: str
     kind: str
@@ -44,11 +44,11 @@ COLOURS, LINES = ("#2722A9", "#923701"), (SOLID, DASHED)
 BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS))
 HOLDS, FAILS = "#44AA99", "#580644"
 NEUTRAL = "black"
-INK = "0.25"  # of pictures of ideas
-GREY = "0.4"  # words and lines next to the data
-BORDER: dict[str, Any] = {"color": GREY, "linewidth": 0.8}  # parts one side from the other
-# After Okabe and Ito's palette, whose pink, green, orange and grey some take for each other; in the
-# order of the learners. Later ones look as those nobody foresaw.
+INK = "0.25"  # for sketches of ideas
+GREY = "0.4"  # for text and lines next to the data
+BORDER: dict[str, Any] = {"color": GREY, "linewidth": 0.8}  # for limits
+# Okabe and Ito's palette, modified because some people confuse its pink, green, orange and grey; in
+# the order of the learners. Further learners get styles from `UNKNOWN`.
 SIGNS = (
     ("#0072B2", "o"),
     ("#D55E00", "P"),
@@ -63,14 +63,14 @@ STYLES = {
     name: Style(*signs, DASHED if name == RITTER else SOLID, label_of(name))
     for name, signs in zip((IMPROVED, RITTER, *peers()), SIGNS, strict=False)
 }
-SHORTER = {IMPROVED: ("#80B9D9", "d"), RITTER: ("#D3977E", "^")}  # trainings of the learner
+SHORTER = {IMPROVED: ("#80B9D9", "d"), RITTER: ("#D3977E", "^")}  # for shorter trainings
 UNKNOWN = ("#661100", "X"), ("#ECDB79", "h"), (GREY, "<"), ("#999933", ">"), ("#AA4499", "p")
 
-Training = tuple[str, int]  # a learner, and for how many iterations it is trained
+Training = tuple[str, int]  # a learner, and its number of iterations
 
 
 def styles_of(learners: Iterable[str]) -> dict[str, Style]:
-    """How the learners of one figure are shown, by name."""
+    """The styles of the learners in one figure, by name."""
     unknown = cycle(UNKNOWN)
     return {
         name: STYLES.get(name) or Style(*next(unknown), DASHED, label_of(name))
@@ -79,7 +79,7 @@ def styles_of(learners: Iterable[str]) -> dict[str, Style]:
 
 
 def styles_of_trainings(trainings: Iterable[Training]) -> dict[Training, Style]:
-    """How trainings are shown: a learner's longest one as the learner, shorter ones paler."""
+    """The styles of trainings: a learner's style for its longest one, paler for shorter ones."""
     ordered = sorted(trainings)
     longest, unknown = dict(ordered), cycle(reversed(UNKNOWN))
     by_learner, styles = styles_of(longest), {}

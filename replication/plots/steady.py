@@ -1,10 +1,10 @@
-"""The same drawing from the same data on every machine, down to the last byte.
+"""Make figures reproducible: the same data give the same bytes on every machine.
 
-Machines differ in the last digits of a sum or a logarithm. So everything that is drawn is rounded
-to what the eye can see, and so are the logarithms of axes; after that only sums and products
-remain, which are alike everywhere. A value may still lie on the border between two roundings: the
-borders are moved to where no rounded number, half or quarter lies, so that only chance can put it
-there. Noise of 1e-9 of a value then moves one in some 100,000 of them.
+Machines differ in the last digits of a sum or a logarithm. So all drawn values are rounded to the
+visible digits, and so are the logarithms of axes; afterwards there are only sums and products,
+which are the same everywhere. A value may still lie on the border between two roundings. So the
+borders are moved away from round numbers, halves and quarters, and only chance puts a value there:
+relative noise of 1e-9 changes about one in 100,000 values.
 """
 
 from collections.abc import Callable
@@ -20,9 +20,9 @@ from matplotlib.text import Annotation
 from matplotlib.transforms import Transform
 from numpy.typing import ArrayLike
 
-LOG = "rounded log"  # the scale of logarithmic axes
-DIGITS = 4  # that are legible
-BORDER = 0.4567  # where values begin to be rounded up, less than one half
+LOG = "rounded log"  # name of the scale of logarithmic axes
+DIGITS = 4  # visible digits
+BORDER = 0.4567  # added before rounding down: an unusual number instead of one half
 
 
 class _RoundedLogTransform(LogTransform):
@@ -48,12 +48,12 @@ register_scale(RoundedLogScale)
 
 
 def _power_of_ten(value: float) -> int:
-    """The exponent of a number: exact, where a logarithm may fall short of it."""
+    """The decimal exponent of a number. It is exact; a rounded logarithm may not be."""
     return int(f"{value:e}".split("e")[1]) if np.isfinite(value) else 0
 
 
 def rounded(values: ArrayLike, scale: float | None = None) -> np.ndarray:
-    """The values to `DIGITS` digits of each by itself, or to so many below `scale` for all."""
+    """Values rounded to `DIGITS` digits each or, with `scale`, all to `DIGITS` digits below it."""
     values = np.array(values, dtype=float)
     if scale is None:
         powers = [_power_of_ten(value) + 1 for value in values.ravel()]
@@ -71,7 +71,7 @@ def _round_on(axis: Axis, values: ArrayLike) -> np.ndarray:
 
 
 def steady(figure: Figure) -> None:
-    """Round all that is drawn in the axes of a figure, and their limits."""
+    """Round everything that is drawn in the axes of a figure, and the axes' limits."""
     for axes in figure.axes:
         both = partial(_round_points, axes)
 

@@ -1,4 +1,4 @@
-"""The figure of the factor: how many iterations each step from Ritter's map needs."""
+"""The figure of the factor: the iterations that each step from Ritter's map on needs."""
 
 from collections.abc import Mapping
 
@@ -15,7 +15,7 @@ from replication.judgement.evidence import Evidence
 from replication.plots.palette import BORDER, GREY, NEUTRAL, STYLES, Style
 from replication.plots.style import MARK, WIDTH, logarithmic, name_right, name_rows, note, spread
 
-# By variant, from Ritter's map to the improved system. Colours of learners, whose names are here.
+# Styles by variant, from Ritter's map to the improved system; learners have their usual colours.
 STEPS: Mapping[str, Style] = {
     RITTER: Style("#757575", "^", "-", "Ritter, half the cells"),
     DOUBLE: Style(STYLES[RITTER].color, "P", "-", "Ritter, equal cells"),
@@ -29,9 +29,9 @@ ENDS = 45, 45_000  # iterations
 
 
 def steps(evidence: Evidence) -> Figure:
-    """Below: iterations of each step for the improved system's errors; above: errors."""
-    own, outcomes = evidence.study.experiments.iterations, evidence.outcomes()
-    goal, home = Remaining(IMPROVED, own), outcomes[outcomes["setup"] == 0]
+    """Top: errors of each step; bottom: iterations it needs for the improved system's errors."""
+    reference, outcomes = evidence.study.experiments.iterations, evidence.outcomes()
+    goal, home = Remaining(IMPROVED, reference), outcomes[outcomes["setup"] == 0]
     shown = {name: style for name, style in STEPS.items() if name in set(home["variant"])}
     setups = Crossing(DOUBLE, goal).values(outcomes)
     figure, (above, below) = plt.subplots(
@@ -43,14 +43,14 @@ def steps(evidence: Evidence) -> Figure:
         shares = np.log(100 * rows[SHARES].max(axis=1)).groupby(rows["iterations"]).mean()
         signs = {"markersize": 3.5, "marker": style.marker, **style.line()}
         above.plot(shares.index, np.exp(shares), **signs)
-        needed, bound = np.array([own]), 0
+        needed, bound = np.array([reference]), 0
         if variant != IMPROVED:
-            needed, bound = _needed(Crossing(variant, goal).values(home), own)
+            needed, bound = _needed(Crossing(variant, goal).values(home), reference)
         middle = float(np.exp(np.log(needed).mean()))
-        below.hlines(height, own, middle, color=style.color, linewidth=3)
+        below.hlines(height, reference, middle, color=style.color, linewidth=3)
         below.scatter(needed, [height] * len(needed), s=MARK, zorder=3, **style.signs())
-        texts.append(_in_words(middle, own, bound))
-    texts.append(_in_words(_draw_setups(below, setups, own), own))
+        texts.append(_in_words(middle, reference, bound))
+    texts.append(_in_words(_draw_setups(below, setups, reference), reference))
     names = [style.label for style in shown.values()]
     names.append(f"Ritter, equal cells,\n{len(setups.table)} setups")
     below.axhline(0.5, **BORDER)
@@ -65,36 +65,36 @@ def steps(evidence: Evidence) -> Figure:
     above.set_ylabel("larger remaining\nshare [%]")
     logarithmic(above.yaxis, 1, 2, 5, 10, 20, 50, 100)
     for axes in (above, below):
-        axes.axvline(own * PUBLISHED, linestyle=(0, (4, 3)), **BORDER)
+        axes.axvline(reference * PUBLISHED, linestyle=(0, (4, 3)), **BORDER)
     font = {"xycoords": ("data", "axes fraction"), "va": "top", "color": GREY}
-    note(above, f"the paper:\n{PUBLISHED}×", (own * PUBLISHED, 1), (3, 0), **font)
+    note(above, f"the paper:\n{PUBLISHED}×", (reference * PUBLISHED, 1), (3, 0), **font)
     return figure
 
 
-def _needed(values: Values, own: int) -> tuple[np.ndarray, int]:
-    """Iterations (replicate,), and whether they are a bound."""
+def _needed(values: Values, reference: int) -> tuple[np.ndarray, int]:
+    """Iterations (replicate,), and the sign of their bound: 1: at least, -1: at most, 0: none."""
     factors = values.table.to_numpy().ravel()
     finite = np.isfinite(factors)
-    return own * np.exp(factors[finite]), int(np.sign(values.bounds.to_numpy().sum()))
+    return reference * np.exp(factors[finite]), int(np.sign(values.bounds.to_numpy().sum()))
 
 
-def _in_words(needed: float, own: int, bound: int = 0) -> str:
-    """Iterations and factor."""
+def _in_words(needed: float, reference: int, bound: int = 0) -> str:
+    """Iterations and factor as text."""
     sign = {1: "> ", -1: "< "}.get(bound, "")
-    iterations, factor = (float(f"{value:.2g}") for value in (needed, needed / own))
+    iterations, factor = (float(f"{value:.2g}") for value in (needed, needed / reference))
     return f"{sign}{iterations:,g} ({factor:,g}×)"
 
 
-def _draw_setups(axes: Axes, setups: Values, own: int) -> float:
-    """Iterations in all setups, and where one more study would lie. Returns their mean."""
+def _draw_setups(axes: Axes, setups: Values, reference: int) -> float:
+    """Draw iterations in all setups, and the predictive interval of one more. Return their mean."""
     model = setups.model()
     beyond = (setups.bounds.max(axis=1) > 0).to_numpy()
     heights = 0.15 + spread(len(beyond))
     for mask, marker in ((~beyond, "."), (beyond, ">")):
-        iterations, color = own * np.exp(model.numbers[mask]), STEPS[DOUBLE].color
+        iterations, color = reference * np.exp(model.numbers[mask]), STEPS[DOUBLE].color
         axes.scatter(iterations, heights[mask], s=16, marker=marker, color=color, lw=0)
-    mean, low, high = own * np.exp(model.mean)
-    axes.hlines(-0.3, *(own * np.exp(model.another[1:])), color=NEUTRAL, linewidth=0.8)
+    mean, low, high = reference * np.exp(model.mean)
+    axes.hlines(-0.3, *(reference * np.exp(model.another[1:])), color=NEUTRAL, linewidth=0.8)
     axes.hlines(-0.3, low, high, color=NEUTRAL, linewidth=3)
     axes.scatter(mean, -0.3, s=MARK, marker="D", color=NEUTRAL, zorder=3)
     return float(mean)

@@ -1,7 +1,7 @@
-"""What all figures share: one style, and the lines and axes that they have in common.
+"""The common style of all figures, and functions for common lines and axes.
 
-Figures are as wide as a phone shows them with letters of 9 pixels: enlarged to the width of a page
-or of the article, all letters have more than 10 points.
+The width suits a phone, which shows letters of 9 pixels. Enlarged to the width of a page or of the
+article, all letters have more than 10 points.
 """
 
 from collections.abc import Iterable, Sequence
@@ -25,7 +25,7 @@ from recalib.files.storage import whole
 from replication.plots.steady import LOG, steady
 
 WIDTH = 5.0  # inches
-SMALL = 9  # points: no letter is smaller
+SMALL = 9  # points, size of the smallest letters
 STYLE: Any = {
     "figure.figsize": (WIDTH, 2.8),
     "figure.dpi": 220,
@@ -37,7 +37,7 @@ STYLE: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
-    "axes.axisbelow": True,  # the grid
+    "axes.axisbelow": True,  # the grid is below the data
     "axes.linewidth": 0.6,
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
@@ -48,16 +48,16 @@ STYLE: Any = {
     "legend.frameon": False,
     "legend.handlelength": 2.6,  # two whole dashes
     "legend.columnspacing": 1.2,
-    "svg.hashsalt": "recalib",  # the same drawing gives the same file
+    "svg.hashsalt": "recalib",  # makes identifiers reproducible
     "svg.fonttype": "none",
 }
 BAND = (5, 95)  # percent of the runs
 GOLDEN = 0.618  # its multiples fill [0, 1] evenly, modulo 1
-MARK = 28  # points squared, of a sign
+MARK = 28  # points squared, size of a marker
 
 
 def save(figure: Figure, *paths: str | Path) -> None:
-    """Write the figure whole, without a date: an unchanged result leaves the file unchanged."""
+    """Write a figure to files, without a date: unchanged results give identical files."""
     steady(figure)
     for path in map(Path, paths):
         with whole(path) as temporary:
@@ -68,7 +68,7 @@ def save(figure: Figure, *paths: str | Path) -> None:
 
 
 def logarithmic(axis: Axis, *ticks: float) -> None:
-    """Make an axis logarithmic, and label it at these values alone, as plain numbers."""
+    """Make an axis logarithmic, with labels only at these values, as plain numbers."""
     (axis.axes.set_xscale if axis is axis.axes.xaxis else axis.axes.set_yscale)(LOG)
     axis.set_major_locator(FixedLocator(ticks))
     axis.set_major_formatter(StrMethodFormatter("{x:,g}"))
@@ -76,14 +76,14 @@ def logarithmic(axis: Axis, *ticks: float) -> None:
 
 
 def name_rows(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> None:
-    """Name what stands in rows at these heights."""
+    """Write the names of rows at these heights to the left."""
     axes.set_yticks(heights, list(names))
     axes.tick_params(axis="y", length=0)
     axes.grid(axis="y", visible=False)
 
 
 def name_right(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> SecondaryAxis:
-    """Words to the right of what stands in rows at these heights; returns their axes."""
+    """Write texts to the right of rows at these heights; return their axis."""
     right = axes.secondary_yaxis("right")
     right.set_yticks(heights, list(names))
     right.tick_params(length=0)
@@ -92,12 +92,12 @@ def name_right(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> Secondar
 
 
 def spread(count: int) -> np.ndarray:
-    """Heights (count,) about 0 at which points of a row hide one another less."""
+    """Heights (count,) about 0 that spread the points of a row, so that they overlap less."""
     return 0.3 * (np.arange(count) * GOLDEN % 1 - 0.5)
 
 
 def band(axes: Axes, places: ArrayLike, ends: Sequence[ArrayLike], color: str) -> None:
-    """What lies between the lower and the upper end, paler than its line."""
+    """Fill the area between lower and upper ends, in a paler colour than the line's."""
     low, high = ends
     axes.fill_between(places, low, high, color=color, alpha=0.2, linewidth=0)
 
@@ -105,16 +105,16 @@ def band(axes: Axes, places: ArrayLike, ends: Sequence[ArrayLike], color: str) -
 def note(
     axes: Axes, text: str, at: tuple[float, float], points: tuple[float, float], **font: Any
 ) -> None:
-    """Words, so many points to the right of a place in the data and above it."""
+    """Write text at an offset `points` (right, up) from a place in the data."""
     axes.annotate(text, at, points, textcoords="offset points", **font)
 
 
 def legend_below(figure: Figure, axes: Axes, columns: int) -> None:
-    """The legend of one panel for all of them, below the figure, where it hides no data."""
+    """Put the legend of one panel, for all panels, below the figure, where it hides no data."""
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=columns)
 
 
 def words(scenario: str) -> str:
-    """A scenario's name for people."""
+    """A scenario's name as text."""
     return scenario.replace("_", " and ")

@@ -1,4 +1,4 @@
-"""Recordings of an arm before, during and after its recalibration: nothing else imports Rerun."""
+"""Recordings of an arm before, during and after recalibration. Only this package imports Rerun."""
 
 import lazy_loader
 

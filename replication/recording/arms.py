@@ -1,4 +1,4 @@
-"""The two arms of a learner: the real one, and a skeleton of the one its controller assumes."""
+"""The two arms of a learner: the real arm, and a skeleton of the arm its controller assumes."""
 
 from collections.abc import Sequence
 
@@ -17,14 +17,14 @@ from replication.recording.colours import DAMAGE, NOMINAL
 from replication.recording.scene import ASSUMED, REAL, Scene, send_gripper
 
 BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `Scene.unit`
-FOOT = 0.7  # radius of the circle about a base that was moved
-AXIS = 0.5  # half the length of the axis that is drawn through a damaged joint
+FOOT = 0.7  # radius of the circle about a displaced base
+AXIS = 0.5  # half the length of the line along the axis of a damaged joint
 
 
 def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
-    """Both arms in motion, each with its gripper, and where the real one is damaged.
+    """Send both arms in motion, each with its gripper, and mark the real arm's damage.
 
-    Raises InvalidFile where a mesh of the robot is not found.
+    Raises InvalidFile if a mesh of the robot is not found.
     """
     rec, learner, robot = scene.rec, scene.learner, scene.robot
     motion, unit = scene.motion, scene.unit
@@ -65,7 +65,7 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
 
 
 def base_shift(robot: Robot, damages: Sequence[Damage]) -> pin.SE3:
-    """How the base of the damaged robot stands in the frame of the nominal one."""
+    """The pose of the damaged robot's base in the nominal base frame."""
     shifts = apply(robot, [damage for damage in damages if isinstance(damage, BaseShift)])
     first = robot.arm.model.jointPlacements[1]
     return shifts.arm.model.jointPlacements[1] * first.inverse()

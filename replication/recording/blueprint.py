@@ -1,4 +1,4 @@
-"""How the viewer arranges a recording when it opens."""
+"""The viewer's layout of a recording when it opens."""
 
 from collections.abc import Iterable
 
@@ -15,11 +15,11 @@ TITLES = {
     "position_error_cm": "mean position error [cm] over iterations",
     "orientation_error_deg": "mean orientation error [degrees] over iterations",
 }
-LEAST = 0.1  # cm and degrees, to which a plot reaches at least
+LEAST = 0.1  # cm and degrees, the smallest range of a plot
 
 
 def arrange(learner: str, watched: Watched, sight: Sight) -> rrb.Blueprint:
-    """The text and the errors to the left of the arm, and behind it what its map learns."""
+    """Text and errors to the left; to the right, tabs with the arm and with its map."""
     eye = rrb.EyeControls3D(position=sight.eye, look_target=sight.target, eye_up=(0, 0, 1))
     of_map, caption = f"/{learner}/map/**", f"/{learner}/target/caption"
     pictures = (
@@ -46,7 +46,7 @@ def arrange(learner: str, watched: Watched, sight: Sight) -> rrb.Blueprint:
 
 
 def _plots(watched: Watched) -> Iterable[rrb.TimeSeriesView]:
-    # beyond the last iteration, or its own number would have no room
+    # extended beyond the last iteration, to leave room for its label
     last = round(1.1 * watched.history.iterations[-1])
     bounds = (rrb.TimeRangeBoundary.absolute(seq=end) for end in (0, last))
     iterations = rrb.TimeAxis(view_range=rr.TimeRange(*bounds))
@@ -62,6 +62,6 @@ def _plots(watched: Watched) -> Iterable[rrb.TimeSeriesView]:
 
 
 def _end(largest: float) -> float:
-    """Where an axis ends: a power of ten is in sight, as the viewer may label no other number."""
+    """The end of an axis. A power of ten is visible, because the viewer may label nothing else."""
     power = 10 ** np.ceil(np.log10(largest))
     return 1.05 * power if largest > power / 2 else 1.1 * largest

@@ -1,4 +1,4 @@
-"""What a recording says about itself, in words."""
+"""The texts in a recording."""
 
 import importlib.metadata
 from typing import Any
@@ -10,7 +10,7 @@ from replication.recording.watched import Watched
 from replication.scenarios.plants import Resolved
 from replication.training.measured import ERRORS
 
-PARTS = "link", "joint", "encoder"  # keys of what a damage is at
+PARTS = "link", "joint", "encoder"  # keys of the damaged part
 PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
@@ -43,7 +43,7 @@ def description(resolved: Resolved, watched: Watched) -> str:
 
 
 def in_words(entry: Entry) -> str:
-    """A damage or disturbance: where it is, what it is, and by how much."""
+    """A damage or disturbance as text: its part, kind and amount."""
     words = {
         key: ", ".join(value) if isinstance(value, list) else value
         for key, value in describe(entry).items()
@@ -62,7 +62,7 @@ def in_words(entry: Entry) -> str:
 
 
 def legend(resolved: Resolved) -> dict[str, colours.Colour]:
-    """What stands for what in the picture, with its colour."""
+    """The legend of the picture: texts with their colours."""
     lines = {"desired pose": colours.WHITE, "tool": colours.REACHED}
     if damages_among(resolved.damages):
         lines["damage"] = colours.DAMAGE
@@ -77,7 +77,7 @@ def _errors(watched: Watched) -> list[str]:
 
 
 def progress(resolved: Resolved, watched: Watched) -> list[str]:
-    """The caption at each measurement: the first and the last one stand while poses are visited."""
+    """The caption at each measurement; the first and last are also shown during visits of poses."""
     stage = "recalibration" if damages_among(resolved.damages) else "learning"
     moments = [f"after {iterations} iterations" for iterations in watched.history.iterations]
     moments[0], moments[-1] = f"before {stage}", f"after {stage}"
@@ -86,6 +86,6 @@ def progress(resolved: Resolved, watched: Watched) -> list[str]:
 
 
 def properties(resolved: Resolved) -> dict[str, Any]:
-    """The scenario that was recorded, and with which packages."""
+    """The recorded scenario, and the versions of packages."""
     versions = {package: importlib.metadata.version(package) for package in PACKAGES}
     return {"scenario": resolved.model_dump_json(), **versions}

@@ -1,4 +1,4 @@
-"""The film of a recording, taken by the real viewer without a screen."""
+"""The film of a recording, from screenshots of the viewer, which runs without a screen."""
 
 import subprocess
 import tempfile
@@ -19,16 +19,16 @@ from recalib.files.storage import whole
 from replication.recording.phases import ARM, CLOCK, VISIT
 from replication.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
 
-REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
-WINDOW = "1490x800"  # pixels, of which the arm has five eighths: as wide as a page
-ZOOM = 10  # steps of a tenth, by which words are larger: they can be read on a telephone
+REPAINTS = 40  # until the viewer's notices disappear: their duration is in repaints, not seconds
+WINDOW = "1490x800"  # pixels; five eighths of the width, the arm's view, are as wide as a page
+ZOOM = 10  # steps of 10 % by which text is enlarged, to be legible on a phone
 SHOWN = 3 * VISIT  # frames at the end of each phase of visits
 STEP = 5  # frames of a visit from one picture to the next
 FRAME, LAST = 100, 1500  # milliseconds
 
 
 class _Patient:
-    """A viewer's client that asks again on a busy machine: rerun's own gives up after 15 s."""
+    """A client of the viewer that retries on a busy machine; Rerun's own gives up after 15 s."""
 
     def __init__(self, process: subprocess.Popen[bytes], client: ViewerClient):
         self._process, self._client = process, client
@@ -39,13 +39,13 @@ class _Patient:
 
 
 def take_film(recording: Path, film: Path) -> None:
-    """Write an animated WebP of what the viewer shows of the arm.
+    """Write an animated WebP of the viewer's picture of the arm.
 
-    It shows the ends of both phases of visits, and learning in as many steps as one of them: each
-    stands for a while at its end.
+    It shows the ends of both phases of visits and, with the same number of pictures, learning. The
+    film pauses after each of the three.
 
-    Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
-    Raises RecalibError where the viewer does not start or does not load the recording.
+    Needs a Vulkan driver; a software driver suffices, such as Debian's mesa-vulkan-drivers.
+    Raises RecalibError if the viewer does not start or does not load the recording.
     """
     start, *others = _pictures(recording, _frames(recording))
     with whole(film) as temporary:
@@ -61,19 +61,19 @@ def take_film(recording: Path, film: Path) -> None:
 
 
 def _frames(recording: Path) -> np.ndarray:
-    """The frames of the recording that are shown."""
+    """The frames of the recording for the film."""
     chunks = RrdReader(recording).store().stream().to_chunks()
     batches = [chunk.to_record_batch() for chunk in chunks]
     numbers = [batch[CLOCK].to_pylist() for batch in batches if CLOCK in batch.schema.names]
     first, last = min(map(min, numbers)), max(map(max, numbers))
     visits = np.arange(max(first, -SHOWN), 0, STEP)
-    # the last frame of learning: its number is one of iterations, and the arm rests there, too
-    learning = (first + last) * np.linspace(0, 1, len(visits)) ** 2  # it learns most at first
+    # first + last is the last frame of learning, because both phases of visits are equally long
+    learning = (first + last) * np.linspace(0, 1, len(visits)) ** 2  # denser while errors fall fast
     return np.concatenate([visits, learning.astype(int), last + 1 + visits])
 
 
 def _pictures(recording: Path, frames: np.ndarray) -> list[Image.Image]:
-    """What the viewer shows of the arm in these frames, in 256 colours: the same to the eye."""
+    """The viewer's pictures of the arm in these frames, in 256 colours, which look the same."""
     taken: list[Image.Image] = []
     with _client() as client, tempfile.TemporaryDirectory() as folder:
         _load(client, recording)
@@ -102,7 +102,7 @@ def _client() -> Iterator[_Patient]:
             with viewer(*options, log=log) as process:
                 url = f"rerun+http://{HERE}:{port}/proxy"
                 yield _Patient(process, answer(process, lambda: ViewerClient(url)))
-        except (ConnectionError, RuntimeError):  # it also ends later, where it first has to draw
+        except (ConnectionError, RuntimeError):  # without a driver it may only fail when it draws
             log.seek(0)
             reason = next((line.strip() for line in log if "panicked" in line), "no answer")
             raise RecalibError(

@@ -1,4 +1,4 @@
-"""What a browser needs to repeat the training that is recorded: a page of the site does."""
+"""Data for a page of the site that repeats the recorded training in a browser."""
 
 import json
 from collections.abc import Sequence
@@ -17,14 +17,14 @@ from replication.training.plan import leading
 from replication.training.poses import Stream
 from replication.training.tuned import Tuned, rules_of
 
-DIGITS = 12  # of placements: machines differ in how they round sines
+DIGITS = 12  # decimals of placements: machines round sines differently
 
 
 def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path) -> str:
     """A script that defines STUDY: robot, damage, learner and poses; lengths in m, angles in rad.
 
-    The study's own scenario has links short and encoders shifted; the history is that of the
-    improved system's trainings there.
+    `scenario` is the study's main scenario, with short links and shifted encoders; `history` is
+    that of the improved system in this scenario.
     """
     resolved, iterations = Resolved.read(scenario), leading(study).iterations
     seed, tests = typical_seed(recorded_history(study, history)), study.training.tests
@@ -40,7 +40,7 @@ def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path
     rules = rules_of(study.every_learner[IMPROVED])
     placements = Chain.of(robot.arm).placements[0].reshape(-1, 12)
     kinematics = {
-        "links": [[link, robot.links[link]] for link in links],  # with the placement at its end
+        "links": [[link, robot.links[link]] for link in links],  # index of the placement at its end
         "joints": [*robot.joints],
         "placements": np.round(placements, DIGITS).tolist(),
         "home": robot.home.tolist(),

@@ -6,40 +6,40 @@ import numpy as np
 import rerun as rr
 
 ARM, MAP = "the arm", "the map"  # names of their views
-# Plots have no clock of their own: that of the viewer counts iterations, so that their ticks do.
+# Plots use the viewer's timeline, so it counts iterations, to have these as ticks.
 CLOCK = "iterations"
 FRAMES_A_SECOND = 30
-POSES = 12  # that the arm visits, if there are so many
-# Frames of the visit of a pose: half of them it moves, half of them it rests there. Twelve visits
-# are hundreds of frames: the viewer's ticks count from the first one, and so meet iteration 0.
+POSES = 12  # poses that the arm visits, at most
+# Frames of a visit: in one half the arm moves, in the other it rests. Twelve visits are a multiple
+# of 100 frames: the viewer's ticks count from the first frame, and so one is at iteration 0.
 VISIT = 50
-BEFORE = 0  # the frame in which the arm rests at the last pose, not yet recalibrated
+BEFORE = 0  # the frame in which the arm rests at the last pose before learning
 
 Clock = list[rr.TimeColumn]
 
 
 @dataclass(frozen=True)
 class Motion:
-    """An arm visits the shown poses, waits at the last of them while it learns, and visits again.
+    """The arm visits the shown poses, waits at the last while it learns, and visits all again.
 
-    Frames are numbered so that those of the second phase are the iterations done until then: those
-    of the first phase are negative.
+    The numbers of frames in the second phase are numbers of iterations, so those in the first phase
+    are negative.
     """
 
-    frames: np.ndarray  # (frame,) those of all phases
-    angles: np.ndarray  # (frame, joint) rad that the controller assumes
+    frames: np.ndarray  # (frame,) numbers of the frames of all phases
+    angles: np.ndarray  # (frame, joint) rad, joint angles of the controller
     # (2, pose) frames in which a move to a pose starts, in the first and the third phase
     departures: np.ndarray
-    iterations: np.ndarray  # (measurement,) done until the measurements
+    iterations: np.ndarray  # (measurement,) numbers of iterations before each measurement
 
     def clock(self) -> Clock:
-        """When the frames are shown."""
+        """The times of all frames."""
         return [rr.TimeColumn(CLOCK, sequence=self.frames)]
 
     def measurements(self) -> tuple[Clock, np.ndarray]:
-        """When the measurements are shown, and which of them then.
+        """The times at which measurements are shown, and their indices.
 
-        The first and the last one stand twice: they fill the phases of visits, too.
+        The first and the last measurement occur twice, because they are also shown during visits.
         """
         rows = np.concatenate([[0], np.arange(len(self.iterations)), [-1]])
         shown = np.concatenate([self.frames[:1], self.iterations, self.frames[-1:]])
@@ -49,8 +49,8 @@ class Motion:
 def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray) -> Motion:
     """The motion that shows a training, from the home angles (joint,) [rad].
 
-    Joints are sent to `angles` (measurement, pose, joint) [rad] for the shown poses, after so many
-    iterations (measurement,).
+    `angles` (measurement, pose, joint) [rad] are joint angles for the shown poses after
+    `iterations` (measurement,).
     """
     before, after = angles[0], angles[-1]
     departures = VISIT * np.arange(len(before))
@@ -68,9 +68,9 @@ def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray) -> Motion
 
 
 def _visits(start: np.ndarray, stops: np.ndarray, progress: np.ndarray) -> np.ndarray:
-    """Angles (stop x frame, joint) of smooth moves from `start` from stop to stop (stop, joint).
+    """Angles (stop x frame, joint) of smooth moves from `start` (joint,) to stops (stop, joint).
 
-    `progress` (frame,) is the part of a way that is done, in [0, 1], if the arm moved evenly.
+    `progress` (frame,) is the completed part of a move, in [0, 1], at constant speed.
     """
     eased = (progress**2 * (3 - 2 * progress))[:, None]  # at rest at both ends
     starts = np.concatenate([start[None], stops[:-1]])[:, None]

@@ -1,18 +1,18 @@
-"""The entities of a recording: what stands still is static, the rest is sent as columns over time.
+"""The entities of a recording. Constant ones are static; others are sent as columns over time.
 
     /about                         the text
-    /legend                        what the colours mean
-    /<learner>/<robot>             the meshes of the real arm that the learner moves
-    /<learner>/links               where its links and all grippers are
+    /legend                        the meaning of the colours
+    /<learner>/<robot>             the meshes of the real arm
+    /<learner>/links               poses of its links and of all grippers
     /<learner>/tool                its gripper
     /<learner>/nominal             the arm that its controller assumes, as a skeleton with a gripper
-    /<learner>/damage              where the arm is not what its controller assumes
-    /<learner>/target              the pose that the arm is sent to, and a caption
+    /<learner>/damage              axes of damaged joints, the base if it was displaced
+    /<learner>/target              the desired pose, and a caption
     /<learner>/map/workspace       the box of positions
     /<learner>/map/desired         positions of the shown test poses
-    /<learner>/map/miss            lines from there to where the real arm lands
-    /<learner>/map/cells           the supernet's cells, lit by the neighbourhood of the last winner
-    /<learner>/map/corrections     how far each cell has learned to move its position command
+    /<learner>/map/miss            lines from there to the achieved positions
+    /<learner>/map/cells           the supernet's cells, sized by the last winner's neighbourhood
+    /<learner>/map/corrections     learned change of each cell's position command
     /errors/<quantity>/<learner>   mean errors over all test poses
 
 Timeline `iterations` runs through the three phases of `phases.Motion`.
@@ -35,26 +35,26 @@ from replication.recording.sight import Sight
 from replication.recording.watched import Watched
 from replication.training.measured import ERRORS
 
-# of a picture whose half is 1 high
-TOP = 0.98  # where the caption stands
-LEGEND = 1.0, -0.36  # the first line of the legend, aside and above: below the base
+# in units of half the picture's height
+TOP = 0.98  # height of the caption
+LEGEND = 1.0, -0.36  # place of the legend's first line (towards the base, up): below the base
 LINE = 0.14
-# A gripper stands for a pose. Outwards from the arm and across, in units of `Scene.unit`: centres
-# of its stem, bar and fingers, and half their sizes without their thickness.
+# A gripper shows a pose. Centres of its stem, bar and fingers, outwards from the arm and across,
+# and half their sizes without their thickness, in units of `Scene.unit`.
 CENTRES = np.array([(0.12, 0, 0), (0.24, 0, 0), (0.42, 0.18, 0), (0.42, -0.18, 0)])
 HALVES = np.array([(0.12, 0, 0), (0, 0.18, 0), (0.18, 0, 0), (0.18, 0, 0)])
 EDGE = 0.012  # radius of an outline's lines
 
 
 class Gripper(NamedTuple):
-    """A gripper as it is drawn."""
+    """The style of a gripper."""
 
     half: float  # half its thickness, in units of `Scene.unit`
     colour: Colour
-    fill: rr.components.FillMode  # whether they are solid, or their edges
+    fill: rr.components.FillMode  # solid, or edges only
 
 
-# Each fits into those before.
+# Each gripper fits into the one before.
 OUTLINE = Gripper(0.05, WHITE, rr.components.FillMode.MajorWireframe)
 REAL = Gripper(0.035, REACHED, rr.components.FillMode.Solid)
 ASSUMED = Gripper(0.03, NOMINAL, rr.components.FillMode.Solid)
@@ -62,7 +62,7 @@ ASSUMED = Gripper(0.03, NOMINAL, rr.components.FillMode.Solid)
 
 @dataclass(frozen=True)
 class Scene:
-    """A learner's training on its way into a recording, below an entity of the learner's name."""
+    """A learner's training for a recording; its entities are below one with the learner's name."""
 
     rec: rr.RecordingStream
     learner: str
@@ -73,28 +73,28 @@ class Scene:
 
     @property
     def unit(self) -> float:
-        """m: half a side of the workspace, on average, by which everything drawn is sized."""
+        """Unit of size of all drawn objects [m]: half a side of the workspace, on average."""
         return float(self.robot.workspace.half_ranges[POSITION].mean())
 
     def log(self, part: str, *what: rr.AsComponents) -> None:
-        """Log what stands still."""
+        """Log static data."""
         self.rec.log(f"{self.learner}/{part}", *what, static=True)
 
     def send(self, part: str, clock: Clock, columns: rr.ComponentColumnList, each: int = 1) -> None:
-        """Send columns over time, with so many rows at each moment."""
+        """Send columns over time, with `each` rows at each moment."""
         moments = len(clock[0].as_arrow_array())
         self.rec.send_columns(f"{self.learner}/{part}", clock, columns.partition([each] * moments))
 
     def show(
         self, part: str, columns: rr.ComponentColumnList, each: int, style: rr.AsComponents
     ) -> None:
-        """Send columns at all measurements, with so many rows at each, and what stands still."""
+        """Send columns at all measurements, with `each` rows at each, and a static style."""
         self.send(part, self.motion.measurements()[0], columns, each)
         self.log(part, style)
 
 
 def log_surroundings(scene: Scene, description: str) -> None:
-    """The text, and around the map the workspace's box and the desired poses."""
+    """Log the text and, for the map, the workspace's box and the desired positions."""
     rec, workspace, unit = scene.rec, scene.robot.workspace, scene.unit
     rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     rec.log("about", rr.TextDocument(description, media_type="text/markdown"), static=True)
@@ -111,7 +111,7 @@ def log_surroundings(scene: Scene, description: str) -> None:
 
 
 def log_legend(rec: rr.RecordingStream, sight: Sight, lines: Mapping[str, Colour]) -> None:
-    """What the colours mean, each line in its own, in the corner below the base."""
+    """Log the legend in the corner below the base, each line in its own colour."""
     aside, above = LEGEND
     places = [sight.place(aside, above - LINE * number) for number in range(len(lines))]
     legend = rr.Points3D(places, radii=0, colors=[*lines.values()], labels=[*lines])
@@ -119,7 +119,7 @@ def log_legend(rec: rr.RecordingStream, sight: Sight, lines: Mapping[str, Colour
 
 
 def send_target(scene: Scene, captions: Sequence[str]) -> None:
-    """The pose that the arm is sent to, and above all a caption for each measurement."""
+    """Send the desired pose over time, and a caption for each measurement at the top."""
     motion = scene.motion
     clock, rows = motion.measurements()
     top = scene.sight.place(0, TOP)
@@ -133,7 +133,7 @@ def send_target(scene: Scene, captions: Sequence[str]) -> None:
 def send_gripper(
     scene: Scene, part: str, clock: Clock, poses: np.ndarray, gripper: Gripper
 ) -> None:
-    """A gripper at poses (n, 4, 4) [m] over time."""
+    """Send a gripper at poses (n, 4, 4) [m] over time."""
     frame = f"{scene.learner}/{part}"
     send_frame(scene.rec, f"{scene.learner}/links/{part}", frame, clock, poses)
     turn, _ = Rotation.align_vectors(scene.robot.outward, (1, 0, 0))
@@ -149,9 +149,9 @@ def send_gripper(
 
 
 def send_errors(scene: Scene) -> None:
-    """Mean errors over all test poses."""
+    """Send mean errors over all test poses."""
     results, (clock, rows) = scene.watched.history.columns(), scene.motion.measurements()
-    # a few moves in a moment are no noise to be averaged
+    # show all numbers: the viewer would otherwise average them
     style = rr.SeriesLines(names=scene.learner, colors=NOMINAL, widths=3, aggregation_policy="off")
     for quantity in ERRORS:
         entity = f"errors/{quantity}/{scene.learner}"
@@ -160,7 +160,7 @@ def send_errors(scene: Scene) -> None:
 
 
 def send_landings(scene: Scene) -> None:
-    """Misses, as lines from the desired to the achieved positions."""
+    """Send position errors, as lines from the desired to the achieved positions."""
     _, rows = scene.motion.measurements()
     achieved = scene.watched.achieved[rows][..., :3, 3]
     desired = np.broadcast_to(scene.watched.desired[:, :3, 3], achieved.shape)
@@ -171,9 +171,9 @@ def send_landings(scene: Scene) -> None:
 
 
 def send_map(scene: Scene) -> None:
-    """The supernet's cells, larger the more they learned last.
+    """Send the supernet's cells, sized by how much they learned last, and their corrections.
 
-    Their corrections are true to scale.
+    Corrections are drawn to scale.
     """
     watched, unit = scene.watched, scene.unit
     _, rows = scene.motion.measurements()

@@ -1,4 +1,4 @@
-"""What the eye sees when a recording opens, and where words stand in its sight."""
+"""The first view of a recording, and places of texts in it."""
 
 from dataclasses import dataclass
 
@@ -6,16 +6,16 @@ import numpy as np
 
 from recalib.nominal.poses import Workspace
 
-HALF = np.tan(np.radians(55 / 2))  # of the viewer's picture is so high, a metre away
+HALF = np.tan(np.radians(55 / 2))  # half the height of the viewer's picture, at a distance of 1
 
 
 @dataclass(frozen=True)
 class Sight:
-    """The first sight of an arm and its workspace."""
+    """The first view of an arm and its workspace."""
 
-    eye: np.ndarray  # (3,) m, where it is
-    target: np.ndarray  # (3,) m, in the middle of the picture
-    axes: np.ndarray  # (2, 3) m, half the height of the picture: towards the base, and upwards
+    eye: np.ndarray  # (3,) m, position of the eye
+    target: np.ndarray  # (3,) m, point in the middle of the picture
+    axes: np.ndarray  # (2, 3) m, vectors of half the picture's height, towards the base and up
 
     def place(self, aside: float, above: float) -> np.ndarray:
         """A point (3,) [m] of the plane that faces the eye, by its place in the picture."""
@@ -23,7 +23,7 @@ class Sight:
 
 
 def sight_of(workspace: Workspace, misses: np.ndarray) -> Sight:
-    """From before the arm, on the side where misses (n, 3) [m] look longest."""
+    """A view from in front of the arm, from the side on which errors (n, 3) [m] look longest."""
     centre = workspace.centre[:3, 3]
     ahead = np.array([*centre[:2], 0]) / np.hypot(*centre[:2])
     up = np.array([0, 0, 1])
@@ -33,7 +33,7 @@ def sight_of(workspace: Workspace, misses: np.ndarray) -> Sight:
     aside = np.cross(up, eye)
     axes = np.array([-np.sign(aside @ ahead) * aside, np.cross(eye, aside)])
     away = 1.6 * np.linalg.norm(centre)
-    # on the arm's side of the workspace, to have all of the arm in view
+    # nearer to the arm than the workspace's centre, to have all of the arm in view
     target = 0.68 * centre + 0.075 * away * up
     half = away * HALF / np.linalg.norm(aside)
     return Sight(eye=target + away * eye, target=target, axes=half * axes)

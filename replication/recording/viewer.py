@@ -1,4 +1,4 @@
-"""The viewer's program: it listens to this machine alone and sends no usage data."""
+"""The viewer's program, which here listens only to this machine and sends no usage data."""
 
 import os
 import socket
@@ -13,15 +13,15 @@ import rerun_cli
 
 T = TypeVar("T")
 HERE = "127.0.0.1"
-# Not the script that starts it, so that it can be ended.
+# The program itself, not the script that starts it, so that it can be terminated.
 PROGRAM = Path(str(rerun_cli.__file__)).with_name("rerun")
-PATIENCE = 60.0  # seconds for it to start and to load, in software on a busy machine
+PATIENCE = 60.0  # seconds for starting and loading, with a software driver on a busy machine
 
 
 def quiet() -> dict[str, str]:
-    """The environment in which it neither notes who runs it nor sends that anywhere.
+    """The environment in which the viewer neither records its user nor sends usage data.
 
-    It has no setting for this but a file in the home; where nobody looks on, it does neither.
+    The only setting for this is a file in the home folder, but in CI the viewer does neither.
     """
     return os.environ | {"CI": "true"}
 
@@ -30,7 +30,7 @@ def quiet() -> dict[str, str]:
 def viewer(
     *options: str, log: int | IO[str] = subprocess.DEVNULL
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """The program with these options, ended at the end of the block."""
+    """Run the program with these options until the end of the block."""
     command = [str(PROGRAM), "--bind", HERE, *options]
     process = subprocess.Popen(command, env=quiet(), stdout=log, stderr=log)
     try:
@@ -41,7 +41,7 @@ def viewer(
 
 
 def answer(process: subprocess.Popen[bytes], ask: Callable[[], T]) -> T:
-    """What it answers as soon as it listens. Raises ConnectionError: it ended, or never does."""
+    """The answer, once the program listens. Raises ConnectionError if it ends or never listens."""
     deadline = time.monotonic() + PATIENCE
     while process.poll() is None and time.monotonic() < deadline:
         try:
@@ -52,7 +52,7 @@ def answer(process: subprocess.Popen[bytes], ask: Callable[[], T]) -> T:
 
 
 def free_port() -> str:
-    """One that no program listens to."""
+    """The number of a port that no program uses."""
     with socket.socket() as free:
         free.bind((HERE, 0))
         return str(free.getsockname()[1])

@@ -1,4 +1,4 @@
-"""A training watched from outside: where the arm goes, and what the cells of its map learn."""
+"""A training with additional data for a recording: the arm's motion, and the state of cells."""
 
 from dataclasses import dataclass
 
@@ -17,34 +17,34 @@ from replication.training.tuned import Tuned
 
 @dataclass(frozen=True)
 class Watched:
-    """One training of one learner, with what was there at each of its measurements."""
+    """One training of one learner, with data at each of its measurements."""
 
     history: History  # the errors on all test poses
-    desired: np.ndarray  # (pose, 4, 4) those of the test poses that are shown
-    achieved: np.ndarray  # (measurement, pose, 4, 4) where the real arm lands instead
-    # (measurement, pose, joint) rad, what the controller commands the joints for them
+    desired: np.ndarray  # (pose, 4, 4) the shown test poses
+    achieved: np.ndarray  # (measurement, pose, 4, 4) poses that the real arm achieves
+    # (measurement, pose, joint) rad, joint angles that the controller chooses
     angles: np.ndarray
-    # (cell, 3) m in the base frame, of the supernet of the map that gives positions
+    # (cell, 3) m in the base frame, centres of the supernet of the position map
     centres: np.ndarray
-    # (measurement, cell) in [0, 1], g_k about the last winner; zero before the first
+    # (measurement, cell) in [0, 1], g_k about the last winner; zero before the first iteration
     weights: np.ndarray
-    # (measurement, cell, 3) m along the base's axes, by which learning moved the position commands
-    # of a cell, the mean over its subnet
+    # (measurement, cell, 3) m along the base's axes, learned change of a cell's position commands,
+    # the mean over its subnet
     corrections: np.ndarray
 
 
 def visiting_order(poses: np.ndarray) -> np.ndarray:
     """The poses (pose, 6) from the rim of the workspace inwards.
 
-    The last one, where the arm waits, is seen best.
+    The arm waits at the last pose, so it should be the most visible one.
     """
     return poses[np.argsort(-np.linalg.norm(poses[:, POSITION], axis=-1))]
 
 
 def watch(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
-    """Train a fresh learner, that of Figure 1, with a seed in a scenario, and watch it.
+    """Train the learner of Figure 1 in a scenario with a seed, and collect data for a recording.
 
-    The first few of the test poses are shown.
+    The first few test poses are shown.
     """
     (name, iterations, _), controller = leading(study), resolved.controller()
     learner, tests = tuned.learner(name, iterations, 1), study.training.tests
@@ -62,7 +62,7 @@ def watch(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
     history = train_for_results(plant, learner, poses, measure_at, progress=on_progress)
     goals, home = workspace.to_poses(shown), controller.robot.home
     targets = controller.targets(np.concatenate(commands)[None])
-    angles = np.where(targets.executed[..., None], targets.angles, home)  # at home where refused
+    angles = np.where(targets.executed[..., None], targets.angles, home)  # home if refused
     half_ranges = workspace.half_ranges[POSITION]
     return Watched(
         history=history,
@@ -76,7 +76,7 @@ def watch(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> Watched:
 
 
 def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration: int) -> np.ndarray:
-    """g_k (cell,) in the iteration before; zero where there was none."""
+    """g_k (cell,) in the previous iteration; zero if there was none."""
     nets, last = learner.nets, iteration - 1
     if iteration == 0:
         return np.zeros(len(nets.w_k))

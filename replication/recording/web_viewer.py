@@ -1,4 +1,4 @@
-"""The viewer for browsers, with a recording, as files of a page: it asks for nothing elsewhere.
+"""The viewer for browsers with a recording, as files of a page that needs no other server.
 
 `python -m replication.recording.web_viewer RECORDING FOLDER` writes them.
 """
@@ -15,11 +15,11 @@ from urllib.request import urlopen
 from replication.recording.viewer import HERE, answer, free_port, viewer
 
 PAGE, PROGRAM, RECORDING = "index.html", "re_viewer_bg.wasm", "recording.rrd"
-ELSEWHERE = re.compile(r"<link[^>]*https://[^>]*>")  # fonts of the viewer's page
-# The page opens its recording: the viewer wants a whole address, though nothing is there. It tells
-# its makers of its use and asks for news, which it has no setting for in a browser: what is
-# elsewhere answers at once, with nothing. On a disk a page may read scripts alone, so these bring
-# files along.
+ELSEWHERE = re.compile(r"<link[^>]*https://[^>]*>")  # links to fonts in the viewer's page
+# The page opens its recording. The viewer needs a complete URL, so this one is fictitious. In a
+# browser the viewer has no setting against usage data and checks for news: the script answers all
+# requests to other servers at once, with nothing. A page on a disk may only load scripts, so files
+# are packed into scripts.
 HEAD = f"""<head><script>
 if (!location.search)
   location.replace("?persist=false&theme=dark&hide_welcome_screen&url=https://packed/{RECORDING}");
@@ -39,13 +39,13 @@ window.fetch = async (asked, how) => {{
 
 
 def embed(recording: Path, folder: Path) -> None:
-    """Put the viewer into a folder with a recording: `PAGE` opens it, from a disk or a server.
+    """Write the viewer and a recording into a folder: `PAGE` opens it, from a disk or a server.
 
-    Its files are part of the viewer's program, which serves them. Raises ConnectionError where that
-    does not start.
+    The viewer's program contains these files and serves them. Raises ConnectionError if it does not
+    start.
     """
     port = free_port()
-    # with an address to show it starts no other server, which would take a core all the time
+    # given an address to show, it starts no second server, which would keep a core busy
     with viewer("--serve-web", "--web-viewer-port", port, f"http://{HERE}/_.rrd") as process:
         files = {
             name: answer(process, partial(_fetch, f"http://{HERE}:{port}/{name}"))

@@ -1,4 +1,4 @@
-"""Recordings: trainings are repeated and watched, and must be those of the histories."""
+"""Write recordings: repeat trainings, check them against their histories, and record them."""
 
 import warnings
 from collections.abc import Sequence
@@ -43,12 +43,12 @@ def record(
     histories: Sequence[Path],
     recordings: Sequence[Path],
 ) -> None:
-    """Write a recording of each scenario: of the typical training of the learner of Figure 1.
+    """Write a recording of a typical training of Figure 1's learner in each scenario.
 
-    Scenarios, histories and recordings are files, one for each of the `recorded_places`.
+    `scenarios`, `histories` and `recordings` are files, one for each of the `recorded_places`.
 
-    Raises InvalidFile: a mesh of the robot is not found, or a history says something else than
-    what was watched.
+    Raises InvalidFile if a mesh of the robot is not found, or if a history differs from the
+    repeated training.
     """
     tuned = Tuned(study, settings)
     for file, path, rrd in zip(scenarios, histories, recordings, strict=True):
@@ -60,25 +60,25 @@ def record(
 
 
 def _compare(path: Path, watched: Watched, history: pd.DataFrame) -> None:
-    """Raise InvalidFile where a history says something else than what was watched."""
+    """Raise InvalidFile if a history differs from the repeated training."""
     shown = pd.DataFrame(watched.history.columns())
     for column in ("iteration", *ERRORS):
         ours, theirs = shown[column].to_numpy(), history[column].to_numpy()
         if len(ours) != len(theirs) or not np.allclose(ours, theirs, rtol=1e-9, atol=1e-12):
-            raise InvalidFile(path, f"its {column} is not that of the same training now")
+            raise InvalidFile(path, f"its {column} differs from that of the repeated training")
 
 
 def write_recording(path: Path, resolved: Resolved, learner: str, watched: Watched) -> None:
-    """Write what was watched of a learner on a scenario's robot.
+    """Write the recording of a learner on a scenario's robot.
 
-    Raises InvalidFile: a mesh of the robot is not found, or the file ends too early.
+    Raises InvalidFile if a mesh of the robot is not found, or if the file is truncated.
     """
     robot, damages = resolved.controller().robot, damages_among(resolved.damages)
     sight = sight_of(robot.workspace, (watched.achieved[0] - watched.desired)[:, :3, 3])
     motion = move(watched.angles, watched.history.iterations, robot.home)
-    rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
+    rr.set_strict_mode(True)  # errors instead of warnings and missing data
     with whole(path) as temporary:
-        # without the properties that Rerun would add by itself: one is the time of writing
+        # without Rerun's own properties, such as the time of writing
         rec = rr.RecordingStream("recalib", recording_id=path.stem, send_properties=False)
         rec.save(temporary, default_blueprint=arrange(learner, watched, sight))
         rec.send_recording_name(path.stem)
@@ -97,7 +97,7 @@ def write_recording(path: Path, resolved: Resolved, learner: str, watched: Watch
 
 
 def check_end(path: Path) -> None:
-    """Raise InvalidFile where a file ends too early: to Rerun that is a mere warning."""
+    """Raise InvalidFile if a file is truncated, for which Rerun only issues a warning."""
     try:
         with warnings.catch_warnings(action="error", category=RerunWarning):
             RrdReader(path)

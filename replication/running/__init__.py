@@ -1,4 +1,4 @@
-"""What the workflow's rules and jobs need: studies of a call, what jobs find around them."""
+"""Support for the workflow's rules and jobs: reading and checking studies, writing outputs."""
 
 import lazy_loader
 

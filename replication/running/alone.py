@@ -1,6 +1,6 @@
-"""One run at a time in a study's folder of results; runs of different studies go side by side.
+"""Allow one run at a time in a study's folder of results; different studies may run in parallel.
 
-Each folder also knows which of Snakemake's notes say from what its results were made.
+A file in each folder also identifies the Snakemake records that belong to its results.
 """
 
 import fcntl
@@ -13,12 +13,12 @@ from recalib.errors import RecalibError
 from recalib.files.storage import is_temporary
 
 MARK = ".running"
-NOTES = ".snakemake/identity"  # deleted with all else that Snakemake has noted
-OTHERS = "studies"  # below the shipped study's folder lie those of the others
+NOTES = ".snakemake/identity"  # identity of Snakemake's records; deleted together with them
+OTHERS = "studies"  # folder of other studies' results, in that of the shipped study
 
 
 def check_writable(folder: str) -> None:
-    """Raise RecalibError where no file can be made; the folder itself need not be there yet."""
+    """Raise RecalibError if no file can be created in a folder, which need not exist yet."""
     path = Path(folder).absolute()
     existing = path if path.exists() else path.parent
     if not os.access(existing, os.W_OK):
@@ -26,11 +26,11 @@ def check_writable(folder: str) -> None:
 
 
 def check_known(folder: str) -> None:
-    """Raise RecalibError for results whose notes were deleted, or left elsewhere."""
+    """Raise RecalibError for results whose Snakemake records were deleted, or are elsewhere."""
     if _read(f"{folder}/{MARK}") not in ("", _read(NOTES)):
         raise RecalibError(
-            f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can"
-            f" say whether it is up to date; try: remove {folder}, or, if nothing was changed"
+            f".snakemake has no records of the results in {folder}, so Snakemake cannot tell"
+            f" whether they are up to date; try: remove {folder} or, if nothing has changed"
             f" since, {folder}/{MARK}"
         )
 
@@ -42,7 +42,7 @@ def _read(path: str) -> str:
 
 
 def _identity() -> str:
-    """Of Snakemake's notes in this folder."""
+    """The identity of Snakemake's records in the working directory."""
     with Path(NOTES).open("a+", encoding="ascii") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         file.seek(0)
@@ -53,12 +53,12 @@ def _identity() -> str:
 
 
 def hold(folder: str) -> None:
-    """Keep other runs out of a folder until this process ends, tidy it up, and note whose it is.
+    """Lock a folder until this process ends, clean it up, and write the identity of its records.
 
-    The system lets go of it, however the process ends. Raises RecalibError: another run has it.
+    The system releases the lock, however the process ends. Raises RecalibError if it is locked.
     """
     Path(folder).mkdir(parents=True, exist_ok=True)
-    mark = os.open(Path(folder, MARK), os.O_WRONLY | os.O_CREAT, 0o666)  # held to the end
+    mark = os.open(Path(folder, MARK), os.O_WRONLY | os.O_CREAT, 0o666)  # never closed: the lock
     try:
         fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -67,7 +67,7 @@ def hold(folder: str) -> None:
         raise RecalibError(busy) from None
     os.truncate(mark, 0)
     os.write(mark, _identity().encode("ascii"))
-    # remove what a killed run left in the making
+    # remove temporary files of a killed run
     for path, folders, files in os.walk(folder):
         if path == folder and OTHERS in folders:
             folders.remove(OTHERS)

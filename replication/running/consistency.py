@@ -1,6 +1,6 @@
-"""Consistency of a study: names that must exist, and keys that go together.
+"""Consistency checks of a study: names must exist, and keys must agree.
 
-What depends on a robot's geometry is in `replication.running.geometry`.
+Checks that depend on a robot's geometry are in `replication.running.geometry`.
 """
 
 import math
@@ -19,11 +19,11 @@ from replication.config.switches import IMPROVED, RITTER, SWITCHES
 from replication.training.competitors import MOVES, peers
 from replication.training.measured import RIGID
 
-MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 numbers
+MOST_CELLS = 1_000_000  # in a map; a training has many maps, and a cell has 42 numbers
 
 
 def check(study: Study) -> list[Mistake]:
-    """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
+    """Mistakes that can be found without a robot, of the first kind of which there are any."""
     for kind in (_robot, _names, _meanings, _amounts, _evidence):
         if found := list(kind(study)):
             return found
@@ -31,12 +31,12 @@ def check(study: Study) -> list[Mistake]:
 
 
 def unused(inherited: Iterable[str], study: Study) -> Iterator[Mistake]:
-    """Scenarios that a study adds to those inherited, and that nothing, or half of it, uses."""
+    """Scenarios that a study adds to the inherited ones, but that nothing uses or shows."""
     shown, compared = {*study.experiments.scenarios}, {*study.benchmark.scenarios}
     for name in study.scenarios:
         if name in shown or name in inherited:
             continue
-        if name == study.scenario:  # learners are trained on it, but no figure shows it
+        if name == study.scenario:  # learners train on it, but no figure shows it
             valid = f"one of experiments.scenarios, which are {listed(sorted(shown), 'and')}"
             yield unlike(("scenario",), name, valid, ("experiments", "scenarios"))
         elif name not in compared:
@@ -45,19 +45,19 @@ def unused(inherited: Iterable[str], study: Study) -> Iterator[Mistake]:
 
 
 def _places(path: KeyPath, names: Iterable[Any]) -> dict[KeyPath, Any]:
-    """Where each name of a list, or each key of a mapping, stands."""
+    """The names in a list, or the keys of a mapping, by their paths."""
     by_key = isinstance(names, Mapping)
     return {(*path, str(name) if by_key else index): name for index, name in enumerate(names)}
 
 
 def _robot(study: Study) -> Iterator[Mistake]:
-    """A robot that does not exist: which learners there are follows from its workspace."""
+    """An unknown robot. It is checked first because learners depend on its workspace."""
     if study.robot not in study.robots:
         yield unknown(("robot",), study.robot, study.robots)
 
 
 def _names(study: Study) -> Iterator[Mistake]:
-    """Names that do not exist, or that mean two things."""
+    """Unknown names, and names that already have another meaning."""
     plan, benchmark, real = study.experiments, study.benchmark, study.real
     papers = list(study.every_learner)
     references: tuple[tuple[dict[KeyPath, str], Iterable[str]], ...] = (
@@ -84,13 +84,13 @@ def _names(study: Study) -> Iterator[Mistake]:
                 yield unlike(("experiments", "switches"), True, f"false without learners.{name}")
     taken = {*peers(), *(name for switch in SWITCHES for name in (switch.without, switch.added))}
     for name in taken.intersection(study.learners):
-        yield Mistake(("learners", name), ": a name with another meaning; try: a new one")
+        yield Mistake(("learners", name), ": this name has another meaning; try: another name")
 
 
 def _meanings(study: Study) -> Iterator[Mistake]:
-    """What would not be what it is called."""
+    """Scenarios and learners that contradict their names or roles."""
     if not any(map(_damages, study.scenarios[study.scenario])):
-        valid = "a scenario with a damage: of an intact robot nothing is learned"
+        valid = "a scenario with damage: an intact robot leaves nothing to learn"
         yield unlike(("scenario",), study.scenario, valid)
     if study.experiments.switches:
         for switch in SWITCHES:
@@ -102,13 +102,13 @@ def _meanings(study: Study) -> Iterator[Mistake]:
 
 
 def _amounts(study: Study) -> Iterator[Mistake]:
-    """More of something than there can be, or less than it takes."""
+    """Amounts that are too large or too small, and duplicates."""
     yield from _budgets(study)
-    if study.experiments.evidence:  # nothing else is scaled
+    if study.experiments.evidence:  # scales are only used for evidence
         yield from _scales(study)
     for name, learner in study.learners.items():
         if math.prod((*learner.supernet, *learner.subnet)) > MOST_CELLS:
-            valid = f"at most {MOST_CELLS:,} cells, with those of the subnet"
+            valid = f"at most {MOST_CELLS:,} cells, including those of subnets"
             subnet = "learners", name, "subnet"
             yield unlike(("learners", name, "supernet"), learner.supernet, valid, subnet)
     for name, entries in study.scenarios.items():
@@ -120,7 +120,7 @@ def _amounts(study: Study) -> Iterator[Mistake]:
 
 
 def _budgets(study: Study) -> Iterator[Mistake]:
-    """Budgets of moves at which a learner cannot be measured."""
+    """Numbers of moves after which a learner cannot be measured."""
     plan = study.benchmark
     for place, moves in _places(("benchmark", "longer"), plan.longer).items():
         if moves in plan.moves:
@@ -130,12 +130,12 @@ def _budgets(study: Study) -> Iterator[Mistake]:
         if not any(
             budget <= most and budget % MOVES == 0 for budget in (*plan.moves, *plan.longer)
         ):
-            valid = f"a list with an even number up to {most}, after which {name} can be measured"
+            valid = f"a list with an even number up to {most}, to measure {name} at least once"
             yield unlike(("benchmark", "moves"), plan.moves, valid)
 
 
 def _scales(study: Study) -> Iterator[Mistake]:
-    """Damages that turn an encoder by more than there is."""
+    """Scales of damages that would shift an encoder by more than half a turn."""
     most = math.pi / max(study.paper_damage.shift)
     places = _places(("mapping", "scales"), study.mapping.scales)
     places |= _places(("experiments", "ensemble", "scales"), study.experiments.ensemble.scales)
@@ -145,7 +145,7 @@ def _scales(study: Study) -> Iterator[Mistake]:
 
 
 def _subject(entry: Entry) -> object:
-    """What an entry is about, without by how much; the robot may be moved again and again."""
+    """The subject of an entry, without amounts, to find duplicates; base shifts may repeat."""
     if isinstance(entry, BaseShift):
         return entry
     names = [field.name for field in fields(entry) if field.name not in entry.amounts()]
@@ -153,14 +153,14 @@ def _subject(entry: Entry) -> object:
 
 
 def _damages(entry: Entry) -> bool:
-    """Whether the robot differs by it."""
+    """Whether an entry changes the robot."""
     if not isinstance(entry, Damage):
         return isinstance(entry, Assigned)
     return any(np.any(getattr(entry, name)) for name in entry.amounts())
 
 
 def _evidence(study: Study) -> Iterator[Mistake]:
-    """Scenarios that the claims take for what they are called."""
+    """Scenarios that contradict their names, on which claims rely."""
     if not study.experiments.evidence:
         return
     condition = "while experiments.evidence is true"

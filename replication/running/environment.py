@@ -1,4 +1,4 @@
-"""What every job finds around it: the project's own modules, one core, the same last digits."""
+"""The environment of every job: the project's own modules, one core, reproducible digits."""
 
 import os
 from pathlib import Path
@@ -7,13 +7,13 @@ PROCESSOR = Path("/proc/cpuinfo")
 
 
 def prepare(project: Path) -> None:
-    """Set the variables that jobs inherit."""
-    # The project's modules, also where another copy of it is installed, and how a job starts.
+    """Set the environment variables that jobs inherit."""
+    # The project's own modules, even if another copy is installed, and the jobs' sitecustomize.
     os.environ["PYTHONPATH"] = os.pathsep.join([str(project), str(project / "workflow" / "start")])
     # Without this, the linear algebra of every job starts a thread for each core of the machine.
     os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-    # The same last digits on every processor with AVX2: otherwise NumPy and its linear algebra take
-    # other loops on newer ones, and a search ends elsewhere where a likelihood is flat.
+    # The same last digits on every processor with AVX2. On newer processors NumPy and its linear
+    # algebra would use other loops, and a search would end elsewhere on a flat likelihood.
     if PROCESSOR.exists() and "avx2" in PROCESSOR.read_text(encoding="utf-8"):
         os.environ["NPY_DISABLE_CPU_FEATURES"] = "X86_V4 AVX512_ICL AVX512_SPR"
         os.environ["OPENBLAS_CORETYPE"] = "Haswell"

@@ -1,6 +1,6 @@
-"""Whether the robots of a study can have its damages and serve its workspaces.
+"""Checks whether robots can have the study's damages and reach its workspaces.
 
-Separate from the other checks, since it loads the robots. Only scenarios that run are checked.
+They are separate from other checks because they load robots. They check only scenarios that run.
 """
 
 from collections.abc import Iterable, Iterator
@@ -25,9 +25,9 @@ from replication.training.plan import places
 
 
 def check_robots(study: Study) -> list[Mistake]:
-    """The mistakes that only robots know of: in what describes them, and in scenarios trained on.
+    """Mistakes that can only be found with the robots: in their settings and in their scenarios.
 
-    The study has passed `check`.
+    The study must have passed `check`.
     """
     used = list(places(study))
     robots: dict[str, Robot] = {}
@@ -55,10 +55,10 @@ def check_robots(study: Study) -> list[Mistake]:
             assigned.append(robots[name])
     if assigned and not mistakes:
         by_robot = (list(_of_assignment(robot, study)) for robot in assigned)
-        mistakes += next(filter(None, by_robot), [])  # the others' would say the same again
+        mistakes += next(filter(None, by_robot), [])  # other robots' mistakes would be the same
     if study.experiments.evidence and not mistakes:
         own = robots[study.robot]
-        if len(own.joints) > 6:  # the posture is the controller's choice: no mapping is known
+        if len(own.joints) > 6:  # the posture is ambiguous, so there is no unique true mapping
             valid = f"false with the {own.name}, an arm of {len(own.joints)} joints"
             return [unlike(("experiments", "evidence"), True, valid)]
         mistakes += _of_ensemble(study, own)
@@ -95,10 +95,10 @@ def _refused(robot: Robot, damage: Damage) -> UnknownName | InvalidSetting | Non
 
 
 def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]:
-    """Links and joints that the robot lacks, amounts that are too much for it, and damages that
-    together do not even leave the middle of its workspace within reach.
+    """Links and joints that the robot does not have, amounts that are too large for it, and
+    damages that together put even the middle of its workspace out of reach.
     """
-    lacking: dict[KeyPath, UnknownName] = {}
+    missing: dict[KeyPath, UnknownName] = {}
     damages: list[Damage] = []
     for index, entry in enumerate(study.scenarios[scenario]):
         if not isinstance(entry, Damage):
@@ -106,7 +106,7 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
         path = "scenarios", scenario, index
         error, description = _refused(robot, entry), describe(entry)
         if isinstance(error, UnknownName):
-            lacking[(*path, next(iter(description)))] = error
+            missing[(*path, next(iter(description)))] = error
             continue
         damages.append(entry)
         amount = next(key for key in entry.amounts() if key in description)
@@ -117,14 +117,14 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
             where = f"the middle of the workspace within reach of the {robot.name}"
             yield unlike((*path, amount), description[amount], f"less, so that it leaves {where}")
             break
-    if len(lacking) > 1:  # it is meant for another robot
-        names = listed(dict.fromkeys(error.name for error in lacking.values()), "and")
-        has = f"has {listed(next(iter(lacking.values())).valid, 'and')}"
+    if len(missing) > 1:  # the scenario is for another robot
+        names = listed(dict.fromkeys(error.name for error in missing.values()), "and")
+        has = f"has {listed(next(iter(missing.values())).valid, 'and')}"
         keys = ("scenario",), ("experiments", "scenarios")
         fault = f" is about {names}; the {robot.name} {has}"
         yield Mistake(("scenarios", scenario), fault, keys)
     else:
-        yield from (unknown(where, error.name, error.valid) for where, error in lacking.items())
+        yield from (unknown(where, error.name, error.valid) for where, error in missing.items())
 
 
 def _reaches_middle(robot: Robot, damages: Iterable[Damage]) -> bool:
@@ -136,14 +136,14 @@ def _reaches_middle(robot: Robot, damages: Iterable[Damage]) -> bool:
 
 
 def _of_links(robot: Robot, links: Iterable[str]) -> Iterator[Mistake]:
-    """Links that a robot lacks."""
+    """Configured links that a robot does not have."""
     for index, link in enumerate(links):
         if link not in robot.links:
             yield unknown(("robots", robot.name, "links", index), link, robot.links)
 
 
 def _of_slides(robot: Robot) -> Iterator[Mistake]:
-    """Joints that slide: a study would take their lengths for angles."""
+    """Sliding joints: a study would treat their lengths as angles."""
     for joint, slides in zip(robot.joints, robot.arm.slides, strict=True):
         if slides:
             yield Mistake(
@@ -169,12 +169,12 @@ def _of_assignment(robot: Robot, study: Study) -> Iterator[Mistake]:
     short = [f"{link} {100 * length:.2f} cm" for link, length in lengths.items() if length <= most]
     if short:
         path = "paper_damage", "shorten", damage.shorten.index(most)
-        valid = f"less than links of the {robot.name} have: {listed(short, 'and')}"
+        valid = f"less than the lengths of links of the {robot.name}: {listed(short, 'and')}"
         yield unlike(path, LENGTH.write(most), valid, own)
 
 
 def _of_ensemble(study: Study, robot: Robot) -> Iterator[Mistake]:
-    """More robots than there are assignments that leave something of every link."""
+    """An ensemble with more robots than assignments for which the links are long enough."""
     damage, plan = study.paper_damage, study.experiments.ensemble
     ways = Ways(study.robots[robot.name].links, damage.shorten, robot.joints, damage.shift)
     refused = cache(lambda damage: _refused(robot, damage.scaled(max(plan.scales))))

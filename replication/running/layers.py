@@ -1,6 +1,6 @@
-"""The layers of the code. A job runs again if the code of its layer or of a lower one changes.
+"""The layers of the code. A job runs again if the code of its layer or of a lower layer changes.
 
-No layer imports a higher one; `tests/test_imports.py` sees to that.
+No layer imports a higher layer; `tests/test_imports.py` checks this.
 """
 
 import hashlib
@@ -27,7 +27,7 @@ HOMES = {module.__name__: Path(module.__path__[0]) for module in (recalib, repli
 
 @cache
 def digest(layer: str) -> str:
-    """Of the code of a layer and of those below it."""
+    """The digest of the code of a layer and all lower layers."""
     hasher = hashlib.sha256()
     for name in LAYERS[: LAYERS.index(layer) + 1]:
         package, *folders = name.split(".")

@@ -1,4 +1,4 @@
-"""Writes what a job returns, whole or not at all, by the suffix of its file."""
+"""Write the result of a job in the format of the file's suffix, completely or not at all."""
 
 import json
 from pathlib import Path
@@ -13,7 +13,7 @@ def write(path: Path, value: Any, digits: int | None = None) -> None:
     """Write a table, a model, plain data, a text or bytes.
 
     Args:
-        digits: of the numbers in a table of text; all that they have if None.
+        digits: significant digits of numbers in a CSV table; all digits if None.
     """
     with whole(path) as temporary:
         match path.suffix, value:

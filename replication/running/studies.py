@@ -1,4 +1,4 @@
-"""The study of a call: the shipped one, or one that changes it.
+"""The study of a call of Snakemake: the shipped study, or one with changes.
 
 `python -m replication.running.studies` makes config.yaml the shipped study: `make ship`.
 """
@@ -24,28 +24,28 @@ from replication.running.geometry import check_robots
 
 CONFIGURATION = "config.yaml"
 OTHERS = "workflow/studies"
-LIKE = "like"  # the key by which a study names another one, of which it says what it changes
+LIKE = "like"  # the key for the name of another study, which this study changes
 LOCK = "workflow/shipped.json"  # digests of the shipped study, part by part; see `make ship`
 DESCRIPTION = "real", "description"
 EXPECTED = ("expected",)
-BANDS = ",".join(BAND)  # the header of a table of them
-PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
+BANDS = ",".join(BAND)  # the header of a table of bands
+PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # paths of copies of data
 
 
 def digests(study: Study) -> dict[str, str]:
-    """A digest of each part of a study, without where copies of data lie."""
+    """A digest of each part of a study, without paths of copies of data."""
     parts = json.loads(study.model_dump_json(exclude=PLACES))
     return {key: digest(json.dumps(part, sort_keys=True).encode()) for key, part in parts.items()}
 
 
 def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
-    """Raise RecalibError where the study, called as the shipped one, is not the one of the lock."""
+    """Raise RecalibError if a study with the shipped study's name does not match the lock."""
     now = digests(study)
     if changed := [key for key in now if now[key] != lock.get(key)]:
         raise RecalibError(
-            f"not the shipped study: it differs in {', '.join(changed)}, and the shipped one alone"
-            f" may write README, docs and figures; try: `name: my_study` beside the changes, for"
-            f" results in {root_of('my_study')}, or `make ship` to ship this one instead"
+            f"not the shipped study: it differs in {', '.join(changed)}, and only the shipped study"
+            f" may write README, docs and figures; try: add `name: my_study` to the changes, for"
+            f" results in {root_of('my_study')}, or `make ship` to ship this study instead"
         )
 
 
@@ -58,11 +58,11 @@ def study_of(
     """The study of a call of Snakemake.
 
     Args:
-        files: configuration files of this call, laid over config.yaml one after the other.
-        changes: settings of its command line, laid over them.
-        asking: whether to ask the robots: they need not be asked for every job of a cluster.
+        files: configuration files of this call, which override config.yaml in this order.
+        changes: settings on the command line, which override the files.
+        asking: whether to check the robots, too: not needed for every job on a cluster.
 
-    Raises InvalidConfiguration; RecalibError: it is called as the shipped one, and is another one.
+    Raises InvalidConfiguration, and RecalibError if it has the shipped study's name but differs.
     """
     known = sorted((project / OTHERS).glob("*.yaml"))
     stacks = [[*layers_of(source, known)] for source in files]
@@ -71,10 +71,10 @@ def study_of(
     own = [stack[-1] for stack in stacks] + ([from_mapping(_typed(changes))] if changes else [])
     inherited = base.content["scenarios"].content if "scenarios" in base.content else ()
     checks: list[Check] = [check, partial(named_files, project), partial(unused, [*inherited])]
-    study = read_study(base, checks=checks)  # a mistake in it is none in what is laid over it
+    study = read_study(base, checks=checks)  # report mistakes in the base as such
     lock = json.loads((project / LOCK).read_text(encoding="utf-8"))
     if not own and digests(study) == lock:
-        return study  # the robots were asked when it was shipped
+        return study  # its robots were checked by `make ship`
     if asking:
         checks.append(check_robots)
     study = read_study(base, *own, checks=checks)
@@ -84,16 +84,16 @@ def study_of(
 
 
 def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
-    """What a source lays over config.yaml: first the study that it is `like`, then what it says.
+    """The layers that a source adds to config.yaml: first the study that it is `like`, then itself.
 
-    A study that is like another one, which is among the files known, has no bands, and is called
-    like its file, unless it says so. Raises InvalidConfiguration.
+    The other study must be among the known files. By default a study that is like another has no
+    bands, and the name of its file. Raises InvalidConfiguration.
     """
     layer = placed(source)
     if LIKE not in layer.content:
         return [layer]
     like = layer.content[LIKE]
-    valid = {path.stem: path for path in known if path != source}  # it goes round in no circle
+    valid = {path.stem: path for path in known if path != source}  # no cycles
     match like.plain():
         case str(name) if name in valid:
             other = valid.pop(name)
@@ -112,7 +112,7 @@ def _refused(value: Placed, mistake: Mistake) -> InvalidConfiguration:
 
 
 def _typed(value: Any) -> Any:
-    """Numbers, true, false and null as such: inside of brackets the command line has text only."""
+    """Convert text to numbers, true, false and null: Snakemake does not do so inside brackets."""
     match value:
         case Mapping():
             return {key: _typed(entry) for key, entry in value.items()}
@@ -126,7 +126,7 @@ def _typed(value: Any) -> Any:
 
 
 def named_files(project: Path, study: Study) -> list[Mistake]:
-    """Files that a study names and that are not there, or are not bands."""
+    """Files in a study's configuration that do not exist, or that are not tables of bands."""
     named = {EXPECTED: study.expected, DESCRIPTION: study.real.description}
     named |= {("real", "data", part, "file"): table.file for part, table in study.real.data}
     mistakes = [

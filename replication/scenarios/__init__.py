@@ -1,4 +1,4 @@
-"""A damage on a robot: which links and encoders, and the plant that it makes."""
+"""Scenarios: assignments of damages to links and encoders, and the resulting plants."""
 
 import lazy_loader
 

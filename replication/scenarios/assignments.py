@@ -1,7 +1,7 @@
-"""Which links, which encoders, which signs? Every way to assign the paper's damage (section 7).
+"""All assignments of the paper's damage to links, encoders and signs (section 7).
 
-The paper says by how much three links were shortened and three encoders were shifted, and what
-the initial errors were. It says neither which links and encoders nor which signs.
+The paper gives the amounts by which three links were shortened and three encoders were shifted, and
+the initial errors. It gives neither the links and encoders nor the signs.
 """
 
 from collections.abc import Sequence
@@ -16,13 +16,13 @@ from recalib.numerics.randomness import generator
 from replication.config.study import PaperDamage, Published
 from replication.scenarios.plants import Nominal, nominal_controller
 
-TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
+TIE = 9  # decimals of a distance; rounding errors must not decide between equal ones
 
 
 def _distinct(
     names: Sequence[str], choices: Sequence[Sequence[float]]
 ) -> list[list[tuple[str, float]]]:
-    """Every way to give all amounts of one of the choices to as many names, in the names' order."""
+    """All assignments of the amounts in a choice to different names, in the names' order."""
     ways = dict.fromkeys(
         tuple(sorted(zip(chosen, amounts, strict=True)))
         for chosen in permutations(range(len(names)), len(choices[0]))
@@ -32,12 +32,12 @@ def _distinct(
 
 
 class Ways:
-    """Every way to assign the paper's damage to a robot, in one order.
+    """All assignments of the paper's damage to a robot, in a fixed order.
 
     Args:
-        links: to which the lengths [m] may be assigned.
-        joints: to whose encoders the angles [rad] may be, with either sign.
-        along: which direction links are shortened; see `LinkShortening`.
+        links: candidates for the lengths [m].
+        joints: candidates for the encoder shifts [rad], which have either sign.
+        along: direction in which links are shortened; see `LinkShortening`.
     """
 
     def __init__(
@@ -73,11 +73,11 @@ Assignment = tuple[LinkShortening | EncoderShift, ...]
 def assign(
     nominal: Nominal, damage: PaperDamage, seed: int
 ) -> tuple[dict[str, np.ndarray], Assignment]:
-    """Every assignment of the paper's damage to a robot, and the one nearest to what is published.
+    """All assignments of the paper's damage to a robot, and the one nearest to published errors.
 
     Returns the columns of a table with a row for each of `Ways`: the mean initial errors
     position_error_cm and orientation_error_deg, and `distance`, the larger of their relative
-    deviations from the published ones. Of several equally near, up to rounding, the first is used.
+    deviations from the published errors. Among equally near assignments the first is chosen.
     """
     controller = nominal_controller(nominal)
     robot = controller.robot
@@ -95,21 +95,21 @@ def compare(
     scale: float = 1.0,
     error: str = "norm",
 ) -> tuple[dict[str, np.ndarray], int]:
-    """The table of `assign` for these ways, and the row of the one nearest to what is published.
+    """The table of `assign` for these ways, and the row nearest to the published errors.
 
     Args:
         coordinates: (n, 6) desired poses over which the errors are averaged.
-        scale: of all lengths, in those that are published.
-        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+        scale: size of the robot's workspace, relative to that of the study's robot.
+        error: definition of a pose's errors; see `recalib.nominal.poses.pose_errors`.
     """
     robot = controller.robot
     desired = robot.workspace.to_poses(coordinates)
     angles = controller.inverse(desired)
     offsets = np.array([apply(robot, shift).offsets for shift in ways.shifted])
-    believed = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
+    shifted = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
     errors = []
     for shortening in ways.short:
-        achieved = apply(robot, shortening).chain.forward(believed[None])
+        achieved = apply(robot, shortening).chain.forward(shifted[None])
         achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
         both = pose_errors(robot.workspace, achieved, desired, error)
         errors.append([values.mean(axis=1) for values in both])

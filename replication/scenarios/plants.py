@@ -1,4 +1,4 @@
-"""Scenarios as resolved: a robot, its controller and its damages, from which a plant is made."""
+"""Resolved scenarios: a robot, its controller and its damages, which determine a plant."""
 
 import hashlib
 from collections.abc import Sequence
@@ -24,18 +24,18 @@ class Nominal(Frozen):
     robot: RobotSettings
     controller: ControllerSettings
     urdf_sha256: str
-    """Digest of the file that `robot.urdf` means: results follow from what stands in it."""
+    """Digest of the file `robot.urdf`, because results depend on its content."""
 
 
 def nominal_of(study: Study, robot: str) -> Nominal:
-    """A robot of a study. See `find_urdf` for what it raises."""
+    """A robot of a study, by its name. Raises like `find_urdf`."""
     entry = study.robots[robot]
     digest = hashlib.sha256(find_urdf(entry.urdf).read_bytes()).hexdigest()
     return Nominal(name=robot, robot=entry, controller=study.controller, urdf_sha256=digest)
 
 
 def nominal_robot(nominal: Nominal) -> Robot:
-    """The robot that an entry of the configuration describes; see `load_robot` for its errors."""
+    """The robot that an entry of the configuration describes. Raises like `load_robot`."""
     entry = nominal.robot
     return load_robot(
         entry.urdf,
@@ -51,12 +51,12 @@ def nominal_robot(nominal: Nominal) -> Robot:
 
 
 def nominal_controller(nominal: Nominal) -> Controller:
-    """Its controller; see `Controller` for what it raises."""
+    """The controller of a nominal robot. Raises like `Controller`."""
     return Controller(nominal_robot(nominal), nominal.controller.greatest_condition)
 
 
 class Resolved(Frozen):
-    """A scenario as resolved: all that a plant is made of. A file of JSON keeps it."""
+    """A resolved scenario: everything that determines a plant. It is stored as JSON."""
 
     scenario: str
     robot: str
@@ -80,7 +80,7 @@ class Resolved(Frozen):
         return apply(robot, damages_among(self.damages))
 
     def plant(self, controller: Controller, seed: int, runs: Sequence[int]) -> Plant:
-        """Robots for these runs, with the disturbances of their own."""
+        """A plant with a robot for each run; each has its own random disturbances."""
         rngs = [generator(seed, self.scenario, run, "disturbances") for run in runs]
         parts = [entry for entry in self.damages if isinstance(entry, Disturbance)]
         disturbances = Disturbances.of(parts) if parts else None

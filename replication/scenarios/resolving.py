@@ -1,4 +1,4 @@
-"""From a study's words for damages to scenarios as resolved."""
+"""Resolve a study's scenarios: assign the paper's damage, and compute initial errors."""
 
 from collections.abc import Iterable, Sequence
 
@@ -15,14 +15,14 @@ from replication.scenarios.plants import Nominal, Resolved, nominal_controller, 
 
 
 def has_part(study: Study, scenarios: Iterable[str]) -> bool:
-    """Whether some of these scenarios have a part of the paper's damage."""
+    """Whether any of these scenarios has a part of the paper's damage."""
     return any(isinstance(entry, Assigned) for name in scenarios for entry in study.scenarios[name])
 
 
 def resolve(
     study: Study, robot: str, scenarios: Sequence[str]
 ) -> tuple[list[Resolved], dict[str, np.ndarray]]:
-    """Scenarios of a robot, and the table of `assign`, empty if none of them has a part in it."""
+    """Resolved scenarios of a robot, and the table of `assign`, empty if no scenario needs it."""
     nominal = nominal_of(study, robot)
     table: dict[str, np.ndarray] = {}
     assignment: Assignment = ()

@@ -1,4 +1,4 @@
-"""What should one use today? Every learner on the same scenarios, in the unit that costs: moves."""
+"""The benchmark: all learners on the same scenarios, compared by robot moves, which cost time."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,9 +13,9 @@ from replication.training.tuned import Tuned
 
 
 def compete(study: Study, learner: str, settings: Sequence[Path]) -> pd.DataFrame:
-    """Let a learner work through the scenarios of the benchmark, in each of them anew.
+    """Train a learner on each scenario of the benchmark, each time from the beginning.
 
-    Returns a row for each scenario, seed and budget of moves.
+    Returns a row for each scenario, seed and number of moves.
     """
     plan, runs, frames = study.benchmark, range(study.benchmark.seeds), []
     papers = learner in plan.papers

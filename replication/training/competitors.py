@@ -1,7 +1,7 @@
-"""The learners that are compared: what each is called, what it needs to know, and how it is made.
+"""The learners in comparisons: their names, the information that they need, and their creation.
 
-The paper's are made from their settings (`replication.training.tuned`). They make two moves an
-iteration; today's, the peers, make one.
+The paper's learners are created from their settings (`replication.training.tuned`) and make two
+moves an iteration; today's learners, the peers, make one.
 """
 
 from collections.abc import Mapping
@@ -13,22 +13,22 @@ from recalib.loop.interfaces import Learner
 from recalib.nominal.robots import Robot
 from replication.config.switches import RITTER
 
-MOVES = 2  # of an iteration of the paper's learners
+MOVES = 2  # in an iteration of the paper's learners
 UNCORRECTED = "uncorrected"  # the peer that learns nothing
-TWIN = "hybrid"  # the one that identifies a twin: it explains more than geometry
+TWIN = "hybrid"  # the peer that identifies a twin: it models more than geometry
 
 
 class Peer(NamedTuple):
-    """One of today's learners that is compared."""
+    """One of today's learners."""
 
-    label: str  # what it is called
-    needs: str  # what it needs to know
-    kind: str  # one of `recalib.learners.kinds`; empty for the one that learns nothing
-    settings: Mapping[str, Any]  # what it is made with
+    label: str  # display name
+    needs: str  # the information that it needs
+    kind: str  # one of `recalib.learners.kinds`; empty for `UNCORRECTED`
+    settings: Mapping[str, Any]  # for `from_settings`
 
 
 def peers() -> dict[str, Peer]:
-    """All of them by name."""
+    """All peers by name."""
     learning = [
         Peer(label, entry.needs, kind, settings)
         for kind, entry in KINDS.items()
@@ -39,7 +39,7 @@ def peers() -> dict[str, Peer]:
 
 
 def make_peer(name: str, runs: int, robot: Robot) -> Learner:
-    """The peer of this name, which has learned nothing yet, for a nominal robot."""
+    """An untrained peer, by its name, for a nominal robot."""
     peer = peers()[name]
     if name == UNCORRECTED:
         return UncorrectedLearner()
@@ -47,7 +47,7 @@ def make_peer(name: str, runs: int, robot: Robot) -> Learner:
 
 
 def label_of(name: str) -> str:
-    """What a learner is called."""
+    """The display name of a learner."""
     known = peers()
     if name in known:
         return known[name].label

@@ -1,7 +1,7 @@
 """Do wide neighbourhoods learn a coarse mapping in few iterations (section 6)?
 
-The improved system learns with widths and rates that do not fall. Each width has its best rate,
-chosen on other poses from the same few.
+The improved system learns with constant widths and rates. Each width has its best rate out of a
+few, chosen on other poses.
 """
 
 import numpy as np
@@ -14,10 +14,10 @@ from replication.config.study import Measuring
 from replication.scenarios.plants import Resolved
 from replication.training.poses import ResultPoses, SearchPoses, Stream, train_on
 
-# Half of the workspace, and half of the distance between cells, whose neighbours hardly learn.
+# Half of the workspace, and half of the distance between cells, so that neighbours hardly learn.
 WIDTHS = {"wide": 1.0, "narrow": 1 / 3}
 RATES = np.array([0.1, 0.2, 0.4, 0.8])
-LEFT = 0.5  # of both errors: a coarse mapping
+LEFT = 0.5  # remaining share of both errors after which a mapping is coarsely learned
 ITERATIONS, SEEDS = 1000, 10
 MEASURING = Measuring(tests=50, measure_every=1, measure_evenly=1, measurements=60)
 
@@ -30,9 +30,9 @@ def halved_after(
     poses: SearchPoses | ResultPoses,
     seed: int,
 ) -> np.ndarray:
-    """Iterations (run,) after which both errors are halved; all of them where they never are.
+    """Iterations (run,) after which both errors are halved; all iterations if they never are.
 
-    Runs have learning rates (run,) of their own; the seed is that of the robots.
+    Each run has its own learning rate, in `rates` (run,); `seed` is the robots' seed.
     """
     schedule = Schedule(width, dict.fromkeys(rules.maps, (width, width)), rates, rates)
     learner = HierarchicalLearner(rules, schedule, runs=len(rates))

@@ -21,12 +21,12 @@ from replication.training.tuned import Tuned
 
 
 def scaled_arm(robot: Robot, damages: Sequence[Damage], scale: float) -> DamagedArm:
-    """The arm with the damages `scale` times as large. Raises InvalidSetting: too short a link."""
+    """The arm with damages times `scale`. Raises InvalidSetting if a link is too short."""
     return apply(robot, [damage.scaled(scale) for damage in damages])
 
 
 def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> Iterator[Assignment]:
-    """Of the assignments in this order, the damages of those for which links are long enough."""
+    """The damages of assignments, in this order, for which the links are long enough."""
     for index in order:
         try:
             scaled_arm(robot, ways[index], scale)

@@ -3,7 +3,7 @@
 ERRORS = ("position_error_cm", "orientation_error_deg")
 KINDS = ("position", "orientation")
 UNITS = ("cm", "degrees")
-BOTH = "both"  # errors of the same measurement
-MOVED = "translation_rotation"  # the scenario of the whole robot moved, in both ways
+BOTH = "both"  # both errors in the same measurement
+MOVED = "translation_rotation"  # scenario: the whole robot is translated and rotated
 RIGID = ("translation", "rotation", MOVED)
-NONE = 1e-6  # cm and degrees: an initial error below it is rounding
+NONE = 1e-6  # cm and degrees: smaller initial errors are rounding

@@ -1,4 +1,4 @@
-"""Which trainings a study consists of, and where their results lie."""
+"""The trainings of a study, and the files of their results."""
 
 from typing import NamedTuple
 
@@ -13,15 +13,15 @@ class Place(NamedTuple):
     scenario: str
 
     def scenario_file(self, root: str) -> str:
-        """The scenario as resolved, below a folder of results."""
+        """The file of the resolved scenario, in a folder of results."""
         return f"{root}/robots/{self.robot}/{self.scenario}.json"
 
     def history_file(self, root: str, learner: str) -> str:
-        """The history of all trainings of a learner here."""
+        """The file with the histories of all trainings of a learner in this place."""
         return f"{root}/runs/{self.robot}/{self.scenario}/{learner}.parquet"
 
     def learned_file(self, root: str, learner: str) -> str:
-        """What they learned."""
+        """The file with the learned state of a learner in this place."""
         return f"{root}/runs/{self.robot}/{self.scenario}/{learner}.npz"
 
 
@@ -29,11 +29,11 @@ Lengths = dict[str, tuple[int, ...]]  # by learner, ascending
 
 
 def places(study: Study) -> dict[Place, Lengths]:
-    """For how many iterations which learners are trained, by robot and scenario."""
-    plan, own = study.experiments, Place(study.robot, study.scenario)
+    """The learners and their numbers of iterations, by robot and scenario."""
+    plan, main = study.experiments, Place(study.robot, study.scenario)
     planned = {Place(study.robot, scenario): dict(plan.learners) for scenario in plan.scenarios}
     planned |= {Place(robot, study.scenario): dict(plan.learners) for robot in plan.robots}
-    own_learners = planned.setdefault(own, {})
+    own_learners = planned.setdefault(main, {})
     more = [*plan.own.items()]
     if plan.switches:
         names = (name for switch in SWITCHES for name in (switch.without, switch.added))
@@ -48,12 +48,12 @@ def places(study: Study) -> dict[Place, Lengths]:
 
 
 def throughout(study: Study, place: Place, learner: str, iterations: int) -> bool:
-    """Whether figures show how a training went on its way."""
+    """Whether figures show the course of a training, not only its beginning and end."""
     return iterations in study.experiments.learners.get(learner, ()) and place.robot == study.robot
 
 
 class Run(NamedTuple):
-    """A learner in a scenario of the study's robot, trained for so many iterations."""
+    """A training of a learner in a scenario of the study's robot."""
 
     learner: str
     iterations: int
@@ -61,7 +61,7 @@ class Run(NamedTuple):
 
 
 def leading(study: Study) -> Run:
-    """The training of Figure 1: of the improved system, or of the first learner without it."""
+    """The training of Figure 1: the improved system or, if a study has none, the first learner."""
     plan = study.experiments
     learner = IMPROVED if IMPROVED in plan.learners else next(iter(plan.learners))
     lengths = plan.learners[learner]

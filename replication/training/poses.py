@@ -1,7 +1,7 @@
-"""Poses for training and testing: no result is measured on poses that settings were chosen by.
+"""Poses for training and testing. No result is measured on poses that were used to choose settings.
 
-The type of a stream of random poses says whether it belongs to a search or to results: code for one
-refuses the other. Streams get their names here alone.
+The type of a stream of random poses shows whether it is for a search or for results, and code for
+one refuses the other. Streams are only named here.
 """
 
 from collections.abc import Sequence
@@ -15,12 +15,12 @@ from recalib.loop.interfaces import Commandable, Learner
 from recalib.loop.training import History, train
 from recalib.numerics.randomness import generator
 
-SEARCHED = "search "  # what the streams of searches begin with, and no others
+SEARCHED = "search "  # first word of the names of search streams, and of no others
 
 
 @unique
 class Stream(Enum):
-    """What poses are drawn for."""
+    """The purposes of random poses."""
 
     SEARCH = "search {number} in setup {setup}, replicate {replicate}"  # number 0: fresh poses
     SETUP = "setup {setup}, replicate {replicate}"
@@ -40,13 +40,13 @@ class Stream(Enum):
         order: str = "random",
         **words: str | int,
     ) -> "SearchPoses | ResultPoses":
-        """The poses of some runs: the same for every learner, and the first of them for fewer.
+        """The poses of runs: the same for every learner; fewer iterations get the first poses.
 
         Args:
-            iterations, tests: how many poses a run learns from, and is measured on.
-            order: of those to learn from. "random": each by itself; "even": a scrambled Sobol
-                sequence.
-            words: that complete the name. Raises ValueError: to that of a search.
+            iterations, tests: numbers of poses that a run learns from, and is measured on.
+            order: order of the poses to learn from. "random": independent; "even": a scrambled
+                Sobol sequence.
+            words: values for the name. Raises ValueError if the name becomes that of a search.
         """
         name, searched = self.value.format(**words), self.value.startswith(SEARCHED)
         if name.startswith(SEARCHED) and not searched:
@@ -64,7 +64,7 @@ def _independent(random: np.random.Generator, count: int) -> np.ndarray:
 
 
 def _spread_evenly(random: np.random.Generator, count: int) -> np.ndarray:
-    from scipy.stats import qmc  # a third of a second, which only this order needs
+    from scipy.stats import qmc  # importing it takes a third of a second
 
     return 2 * qmc.Sobol(6, rng=random).random_base2((count - 1).bit_length())[:count] - 1
 
@@ -74,11 +74,11 @@ ORDERS = {"random": _independent, "even": _spread_evenly}
 
 @dataclass(frozen=True)
 class _Poses:
-    """Poses of several runs, in workspace coordinates. Raises ValueError: the two sets overlap."""
+    """Poses of several runs, in workspace coordinates. Raises ValueError if the sets overlap."""
 
     name: str  # the name of their stream
     desired: np.ndarray  # (run, iteration, 6) to learn from
-    tests: np.ndarray  # (run, pose, 6) to be measured on
+    tests: np.ndarray  # (run, pose, 6) to measure on
 
     def __post_init__(self) -> None:
         if np.isin(self.tests[..., 0], self.desired[..., 0]).any():
@@ -86,18 +86,18 @@ class _Poses:
 
     @classmethod
     def only(cls, poses: "SearchPoses | ResultPoses") -> Self:
-        """These poses. Raises TypeError: they have another purpose."""
+        """The poses themselves. Raises TypeError if they have another purpose."""
         if not isinstance(poses, cls):
             raise TypeError(f"{cls.__name__} expected, {type(poses).__name__} found: {poses.name}")
         return poses
 
 
 class SearchPoses(_Poses):
-    """By which a search chooses settings."""
+    """Poses with which a search chooses settings."""
 
 
 class ResultPoses(_Poses):
-    """On which winners, and today's learners, are trained and measured."""
+    """Poses on which winners of searches, and today's learners, are trained and measured."""
 
 
 def train_on(
@@ -107,7 +107,7 @@ def train_on(
     measure_at: Sequence[int],
     **how: Any,
 ) -> History:
-    """As `recalib.loop.training.train`."""
+    """Like `recalib.loop.training.train`, for a set of poses."""
     return train(plant, learner, poses.desired, poses.tests, measure_at, **how)
 
 
@@ -118,5 +118,5 @@ def train_for_results(
     measure_at: Sequence[int],
     **how: Any,
 ) -> History:
-    """As `train_on`. Raises TypeError: the poses are those of a search."""
+    """Like `train_on`. Raises TypeError if the poses belong to a search."""
     return train_on(plant, learner, ResultPoses.only(poses), measure_at, **how)

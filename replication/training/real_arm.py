@@ -27,14 +27,11 @@ from replication.training.poses import Stream, train_for_results
 from replication.training.tracker import TrackerMeasurements, read_of, read_whole_description
 from replication.training.tuned import Tuned
 
-ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
+ROUNDING = 1e-9  # m, rad: a smaller extent of poses is zero, by which one must not divide
 
 
 def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
-    """The robot with its tool at a point of the flange, (3,) m in the tool's frame.
-
-    Its workspace moves along.
-    """
+    """The robot with its tool and workspace moved to a point (3,) [m] in the tool's frame."""
     arm = robot.arm.copy()
     tool = arm.model.frames[tool_frame(arm.model, arm.tool)]
     tool.placement = tool.placement * pin.SE3(np.eye(3), np.array(point))
@@ -43,7 +40,7 @@ def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
 
 
 def identified(kind: str, arm: Arm, measurements: TrackerMeasurements) -> Calibration:
-    """The arm as a learner of a kind that knows the nominal one identifies it."""
+    """The arm, identified by a kind of learner that knows the nominal kinematics."""
     identifying = cast(type[GeometricLearner], class_of(kind))
     return identifying.identify(arm, Observations(measurements.angles, measurements.measured))
 
@@ -51,7 +48,7 @@ def identified(kind: str, arm: Arm, measurements: TrackerMeasurements) -> Calibr
 def _black_box(
     peer: Peer, robot: Robot, known: TrackerMeasurements, unknown: TrackerMeasurements
 ) -> np.ndarray:
-    """Asked for the pose that was measured, the learner should command the one that was."""
+    """Position errors (m, 3) [m]: for a measured pose, the learner should repeat its command."""
     arm, commanded = robot.arm, robot.arm.forward(known.angles)
     centre = commanded[
         np.linalg.norm(known.angles - np.median(known.angles, axis=0), axis=1).argmin()
@@ -68,9 +65,9 @@ def _black_box(
 def _coordinates(
     arm: Arm, workspace: Workspace, measurements: TrackerMeasurements
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates (1, n, 6) commanded and achieved.
+    """Commanded and achieved coordinates (1, n, 6).
 
-    The orientation, which was not measured, counts as commanded.
+    Orientations were not measured; the achieved ones are assumed to be as commanded.
     """
     commanded = arm.forward(measurements.angles)
     achieved = commanded.copy()
@@ -81,11 +78,11 @@ def _coordinates(
 def remaining_errors(
     learner: str, robot: Robot, known: TrackerMeasurements, unknown: TrackerMeasurements
 ) -> np.ndarray:
-    """Distances (m,) [m] that a peer leaves at poses it has not learned from.
+    """Remaining position errors (m,) [m] of a peer at poses from which it has not learned.
 
     Args:
-        robot: the nominal one, its tool at the point that was measured; see `with_tool_point`.
-        known, unknown: what it learns from, and what it is tested on.
+        robot: the nominal robot, with its tool at the measured point; see `with_tool_point`.
+        known, unknown: measurements to learn from, and to test on.
     """
     peer = peers()[learner]
     if learner == UNCORRECTED:
@@ -106,16 +103,16 @@ def learn(
     description: Path,
     settings: Sequence[Path],
 ) -> pd.DataFrame:
-    """Let a learner learn from poses in `fit`, and test it on those in `test`.
+    """Train a learner on poses in the table `fit`, and test it on poses in the table `test`.
 
-    One that chooses its poses itself learns on a twin, identified from all poses in `fit`. The
-    description is a file of what these tables do not say themselves.
+    A learner that chooses its poses itself learns on a twin, identified from all poses in `fit`.
+    The file `description` has frames, units and columns of the tables.
 
-    Returns a row for each number of poses, or of moves on the twin, and random subset of them, with
-    the mean error in mm.
+    Returns a row for each number of poses (or moves on the twin) and random subset, with the mean
+    error in mm.
     """
     described = read_whole_description(description)
-    assert described.target is not None  # as of a whole description
+    assert described.target is not None  # `read_whole_description` has checked this
     nominal = nominal_robot(nominal_of(study, study.real.robot))
     robot = with_tool_point(nominal, described.target[:3, 3])
     known = read_of(robot.arm, fit, described)
@@ -123,7 +120,7 @@ def learn(
         return _on_twin(study, learner, robot, known, Tuned(study, settings))
     tests, rows = read_of(robot.arm, test, described), []
     for count in study.real.poses:
-        # With all of them there is one subset only; what learns nothing needs one, too.
+        # All poses form a single subset, and a learner that does not learn needs only one.
         once = count >= len(known) or learner == UNCORRECTED
         for subset in range(1 if once else study.real.subsets):
             order = generator(study.seed, "real", count, subset).permutation(len(known))
@@ -138,12 +135,12 @@ def _on_twin(
 ) -> pd.DataFrame:
     twin = identified(peers()[TWIN].kind, robot.arm, known)
     iterations, runs = study.real.twin[learner], range(study.real.subsets)
-    met = {count // MOVES for count in study.real.poses if count // MOVES <= iterations}
+    measured = {count // MOVES for count in study.real.poses if count // MOVES <= iterations}
     history = train_for_results(
         Plant(Controller(robot, study.controller.greatest_condition), twin),
         tuned.learner(learner, iterations, len(runs)),
         Stream.TWIN.draw(study.seed, runs, iterations, study.training.tests),
-        sorted(met | {iterations}),
+        sorted(measured | {iterations}),
     )
     return pd.DataFrame(
         {

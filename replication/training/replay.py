@@ -1,4 +1,4 @@
-"""Is the controller left alone (section 8)? A learner is taught by a robot, then by a table."""
+"""Does learning leave the controller untouched (section 8)? A robot and a table teach a learner."""
 
 from collections.abc import Callable
 
@@ -15,18 +15,18 @@ from replication.training.poses import Stream
 def replay(
     resolved: Resolved, make_learner: Callable[[], HierarchicalLearner], iterations: int, seed: int
 ) -> pd.DataFrame:
-    """For each array of a learner of one run, the largest difference between both teachers."""
+    """The largest difference in each learned array: learned from a robot, or from a table."""
     plant = resolved.plant(resolved.controller(), seed, [0])
     desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired
     table: dict[bytes, Outcome] = {}
 
     def by_robot(commands: np.ndarray) -> Outcome:
-        """Ask the robot, and write down what it did."""
+        """Execute commands, and record the outcome."""
         table[commands.tobytes()] = plant.execute(commands)
         return table[commands.tobytes()]
 
     def by_table(commands: np.ndarray) -> Outcome:
-        """Look it up; a command that was never sent is an error."""
+        """Look up the outcome; a command that was never sent raises KeyError."""
         return table[commands.tobytes()]
 
     learned = []

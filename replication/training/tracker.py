@@ -1,6 +1,6 @@
-"""Laser tracker data of a real arm: tables of positions, fetched from their public address.
+"""Laser tracker data of a real arm: tables of positions, downloaded from their public address.
 
-A description has their columns and frames (`recalib.laboratory.tables.description`).
+A description defines their columns and frames (`recalib.laboratory.tables.description`).
 """
 
 import hashlib
@@ -25,12 +25,12 @@ PATIENCE = 60  # seconds for the public address to answer
 
 @dataclass(frozen=True)
 class TrackerMeasurements:
-    """What the tracker saw, in the conventions of the URDF."""
+    """The tracker's measurements, in the conventions of the URDF."""
 
-    angles: np.ndarray  # (n, 6) rad that were commanded
-    # (n, 3) m in the base frame, where the table says that the tool should have been
+    angles: np.ndarray  # (n, 6) rad, commanded
+    # (n, 3) m in the base frame, nominal positions of the tool according to the table
     nominal: np.ndarray
-    measured: np.ndarray  # (n, 3) m in the base frame, where it was
+    measured: np.ndarray  # (n, 3) m in the base frame, measured positions
 
     def __len__(self) -> int:
         return len(self.angles)
@@ -42,7 +42,7 @@ class TrackerMeasurements:
 def read_whole_description(path: str | PathLike[str]) -> Description:
     """The description of such tables at `path`.
 
-    Raises InvalidFile, also where it says not where the instrument stands or the target sits.
+    Raises InvalidFile, also if the frame of the instrument or of the target is missing.
     """
     description = read_description(path)
     if description.instrument is None or description.target is None:
@@ -51,20 +51,20 @@ def read_whole_description(path: str | PathLike[str]) -> Description:
 
 
 def read_of(arm: Arm, path: str | PathLike[str], description: Description) -> TrackerMeasurements:
-    """The measurements in the table at `path`, of this arm and no other.
+    """The measurements in the table at `path`, checked to be of this arm.
 
     Args:
-        arm: the nominal arm, its tool at the point that was measured.
-        description: what the table does not say itself, with where the instrument stands.
+        arm: the nominal arm, with its tool at the measured point.
+        description: the description of the table, with the frame of the instrument.
 
-    Raises InvalidFile (a table that cannot be used) and Mistaken (another arm, or other units:
-    it does not get to the nominal positions in the table).
+    Raises InvalidFile (an unusable table) and Mistaken (another arm or other units: the arm does
+    not reach the nominal positions in the table).
     """
     rows = read_measurements(path, arm, description)
     nominal = rows.columns.get(NOMINAL.name)
     if rows.joints is None or rows.positions is None or nominal is None:
         raise InvalidFile(
-            path, f"it lacks {', '.join(NOMINAL.headings)} or what was measured; expected: both"
+            path, f"{', '.join(NOMINAL.headings)} or measured positions are missing; expected: both"
         )
     instrument = description.instrument
     assert instrument is not None  # `read_whole_description` has both frames
@@ -76,14 +76,14 @@ def read_of(arm: Arm, path: str | PathLike[str], description: Description) -> Tr
 
 
 def fetch(study: Study) -> tuple[bytes, bytes]:
-    """The tables of the real arm: to learn from, and to test on. See `fetched` for its errors."""
+    """The tables of the real arm, to learn from and to test on. Raises like `fetched`."""
     return fetched(study.real.data.fit), fetched(study.real.data.test)
 
 
 def fetched(source: Source) -> bytes:
     """A table, from a file or from its public address.
 
-    Raises RecalibError where it is out of reach or not the one that is meant.
+    Raises RecalibError if it cannot be read, or if its checksum is wrong.
     """
     where = source.file or source.url
     try:
@@ -94,8 +94,8 @@ def fetched(source: Source) -> bytes:
                 content = reply.read()
     except OSError as error:
         raise RecalibError(
-            f"{where} is out of reach ({error}); a copy on this machine can be"
-            " named in real.data, as `file`"
+            f"{where} is out of reach ({error}); try: set `file` in real.data to"
+            " the path of a copy on this machine"
         ) from None
     digest = hashlib.sha256(content).hexdigest()
     if digest != source.sha256:

@@ -1,4 +1,4 @@
-"""Trainings: all of a robot in a scenario, in one job."""
+"""The job for all trainings of a robot in a scenario."""
 
 import sys
 from collections.abc import Sequence
@@ -26,8 +26,8 @@ def train(
 ) -> None:
     """Train every learner of a robot in a scenario, for each of its numbers of iterations.
 
-    The poses of a seed are the same for all of them. Histories and learned are files that are
-    written, one for each learner in the order of the plan.
+    The poses of a seed are the same for all trainings. `histories` and `learned` are output files,
+    one for each learner in the order of the plan.
     """
     place, tuned = Place(robot, scenario), Tuned(study, settings)
     resolved_scenario, seeds = Resolved.read(resolved), range(study.training.seeds)

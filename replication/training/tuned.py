@@ -1,4 +1,4 @@
-"""The settings with which a study trains its learners: shipped ones, or its own."""
+"""The settings with which a study trains its learners: shipped settings, or its own."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -29,7 +29,7 @@ def rules_of(learner: LearnerSettings) -> Rules:
 
 
 def trained(study: Study) -> set[tuple[str, int]]:
-    """Each learner of the paper with each number of iterations for which settings are needed."""
+    """Each learner of the paper and number of iterations for which a study needs settings."""
     trainings = {
         (learner, iterations)
         for learners in places(study).values()
@@ -43,7 +43,7 @@ def trained(study: Study) -> set[tuple[str, int]]:
 
 
 def untuned(study: Study, project: Path = Path()) -> list[str]:
-    """The learners for which a study needs settings that are not shipped."""
+    """The learners whose settings a study needs but which are not shipped."""
     needed, shipped = trained(study), set()
     if study.settings == "shipped" and (project / OUTCOMES).exists():
         table = pd.read_csv(project / OUTCOMES).query("setup == 0 and replicate == 0")
@@ -52,7 +52,7 @@ def untuned(study: Study, project: Path = Path()) -> list[str]:
 
 
 class Tuned:
-    """Settings of a study, from files like the campaign's table: those of the reference study."""
+    """Settings of a study: rows of setup 0 in files with the format of the campaign's table."""
 
     def __init__(self, study: Study, files: Iterable[Path]):
         self._study = study
@@ -63,7 +63,7 @@ class Tuned:
         )
 
     def learner(self, name: str, iterations: int, runs: int) -> HierarchicalLearner:
-        """An untrained learner of so many runs. Raises RecalibError: no settings for it."""
+        """An untrained learner for several runs. Raises RecalibError if there are no settings."""
         rules = rules_of(self._study.every_learner[name])
         if (name, iterations) not in self._rows.index:
             raise RecalibError(f"no settings of {name} for {iterations} iterations; try: make tune")

@@ -38,7 +38,7 @@ FEW = {"robot", "scenario", "settings"}  # words: none of these values is anothe
 NAMED = "robots", "scenarios", "home"  # mappings whose keys are names
 REFUSAL = re.compile(
     r"(the command line|config\.yaml:\d+:\d+): [a-z]\S*"
-    r"(: (unknown|no valid) \w+; .+|: a name with another meaning; try: a new one"
+    r"(: (unknown|no valid) \w+; .+|: this name has another meaning; try: another name"
     r"| (is|has|lacks|moves) .+; ((valid|expected): .+|did you mean [\w.]+\?)"
     r"|: .+ again; expected: once| is missing: .+| lacks [\w, ]+| does not fit: .+)",
     re.DOTALL,

@@ -106,7 +106,7 @@ def test_what_hangs_on_fixed_joints_alone_is_no_end_of_the_arm(load):
 
 def test_what_is_still_to_be_expanded_is_refused_whatever_its_name(load):
     macro = '<xacro:macro xmlns:xacro="http://ros.org/wiki/xacro" name="m"/></robot>'
-    with pytest.raises(UnsuitableRobot, match="is a xacro file; try: what `xacro"):
+    with pytest.raises(UnsuitableRobot, match="is a xacro file; try: the output of `xacro"):
         load(GANTRY.replace("</robot>", macro))
 
 

@@ -60,7 +60,9 @@ def test_a_study_without_a_file_is_refused(project):
 
 def test_a_file_that_snakemake_cannot_read_is_named(project):
     (project / "my_leg.yaml").write_text("robot: [ur5\n", encoding="utf-8")
-    message = "2:1: no YAML: expected ',' or ']', but got '<stream end>' in what begins in line 1"
+    message = (
+        "2:1: invalid YAML: expected ',' or ']', but got '<stream end>' in the part from line 1"
+    )
     commands = make(project, "study", "STUDY=my_leg").stdout
     reading, here = "-m replication.config.reading", os.environ | {"PYTHONPATH": str(ROOT)}
     assert f"{reading} my_leg.yaml\n" in commands

@@ -14,7 +14,7 @@ def of_call(project, *files, asking=False, **changes):
 
 
 def test_a_changed_study_is_refused_under_the_shipped_name(with_studies):
-    with pytest.raises(RecalibError, match="it differs in seed, robot, and the shipped one alone"):
+    with pytest.raises(RecalibError, match="it differs in seed, robot, and only the shipped study"):
         of_call(with_studies, robot="ur3", seed=5)
     mine = of_call(with_studies, robot="ur3", name="mine")
     assert (mine.name, mine.robot) == ("mine", "ur3")

@@ -1,4 +1,4 @@
-"""What should one use today? No part of the default run."""
+"""The comparison with today's learners. It is not part of the default run."""
 
 
 rule benchmark_run:
@@ -14,7 +14,7 @@ rule benchmark_run:
         **calls("training.benchmark:compete"),
         learner=lambda w: w.learner,
     message:
-        "Let {wildcards.learner} work through the benchmark's scenarios"
+        "Train {wildcards.learner} on the benchmark's scenarios"
     script:
         "../scripts/call.py"
 
@@ -35,7 +35,7 @@ rule benchmark_table:
         **calls("judgement.benchmark:put_together"),
         digits=6,
     message:
-        "Put the benchmark together"
+        "Collect the results of the benchmark"
     script:
         "../scripts/call.py"
 
@@ -50,7 +50,7 @@ rule real_data:
     params:
         **calls("training.tracker:fetch"),
     message:
-        "Bring the poses of the real arm"
+        "Download the poses of the real arm"
     script:
         "../scripts/call.py"
 
@@ -73,7 +73,7 @@ rule real_run:
         **calls("training.real_arm:learn"),
         learner=lambda w: w.learner,
     message:
-        "Let {wildcards.learner} learn from recorded poses of the real arm"
+        "Train {wildcards.learner} on recorded poses of the real arm"
     script:
         "../scripts/call.py"
 
@@ -92,6 +92,6 @@ rule real_table:
         **calls("judgement.benchmark:real_errors"),
         digits=5,
     message:
-        "Put the results on the real arm together"
+        "Collect the results on the real arm"
     script:
         "../scripts/call.py"

@@ -1,4 +1,4 @@
-"""The campaign: every variant in every setup. No part of a run: its outcomes are shipped."""
+"""The campaign: every variant in every setup. It is not part of a run: its outcomes are shipped."""
 
 from replication.campaign.setups import planned
 from replication.campaign.variants import lengths, needed, variants
@@ -16,7 +16,7 @@ wildcard_constraints:
 
 
 def measured(wildcards):
-    """The variants of a setup."""
+    """The variants that are measured in a setup."""
     every = variants(STUDY).items()
     return [name for name, variant in every if lengths(variant, int(wildcards.setup))]
 
@@ -59,7 +59,7 @@ rule untrained:
         "../scripts/call.py"
 
 
-# A variant that was measured is kept until all of its replicate are: an interrupted run goes on.
+# Variants are stored until their replicate is complete, so that an interrupted run can continue.
 rule variant:
     input:
         design=DESIGN,
@@ -92,7 +92,7 @@ rule outcomes:
     params:
         **calls("campaign.measuring:put_together"),
     message:
-        "Put setup {wildcards.setup}, replicate {wildcards.replicate} together"
+        "Collect setup {wildcards.setup}, replicate {wildcards.replicate}"
     script:
         "../scripts/call.py"
 
@@ -101,7 +101,7 @@ rule campaign:
     input:
         [MEASURED.format(setup=setup, replicate=number) for setup, number in planned(STUDY)],
     message:
-        "What was missing of the campaign: {input}; `make campaign` ships it"
+        "Missing outcomes of the campaign: {input}; `make campaign` ships them"
 
 
 rule halfway_in_setup:
@@ -124,7 +124,7 @@ rule halfway_in_setup:
         "../scripts/call.py"
 
 
-# Setup 0 has been tuned for so many iterations in the campaign.
+# The campaign has tuned setup 0 for 10,000 iterations already.
 rule halfway:
     input:
         tables=[

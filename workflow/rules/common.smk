@@ -1,4 +1,4 @@
-"""The study of this call, checked before anything runs, and what all rules share."""
+"""The study of this call, checked before anything runs, and functions for all rules."""
 
 import os
 import sys
@@ -30,14 +30,14 @@ try:
     check_writable(".snakemake")
     check_known(RESULTS)
 except RecalibError as error:
-    sys.exit(str(error))  # an exception would be reported with this file and line, which are right
+    sys.exit(str(error))  # for an exception, Snakemake would blame this file and line
 
 IS_SHIPPED = STUDY.name == SHIPPED
 DUMPED = STUDY.model_dump_json()
 
 
 def calls(function):
-    """Params of a rule that calls "module:function" of `replication`, and again if its code changes."""
+    """Params of a rule that calls "module:function" of `replication`; its code triggers a rerun."""
     return {
         "function": f"replication.{function}",
         "study": DUMPED,
@@ -46,7 +46,7 @@ def calls(function):
 
 
 def room(mem_mb, runtime):
-    """Memory [MB] and time [min] that a job may take on a cluster; more each time it is retried."""
+    """Memory [MB] and time [min] that a job may use on a cluster; more after each failure."""
     return {
         "mem_mb": lambda wildcards, attempt: mem_mb * attempt,
         "runtime": lambda wildcards, attempt: runtime * attempt,

@@ -1,4 +1,4 @@
-"""From histories to one table, the check of it, and a finding for each claim."""
+"""A table of final errors from all histories, its check, and a finding for each claim."""
 
 from replication.config.shipped import DESIGN, OUTCOMES, UNTRAINED
 
@@ -27,7 +27,7 @@ rule summary:
         **calls("judgement.summary:summarise"),
         digits=6,
     message:
-        "Put the final errors of every training into one table"
+        "Collect the final errors of all trainings"
     script:
         "../scripts/call.py"
 

@@ -1,4 +1,4 @@
-"""What people see: figures, recordings, pages; and what the shipped study publishes of them."""
+"""Figures, recordings and pages, and the publication of those of the shipped study."""
 
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.meshes import mesh_files
@@ -16,7 +16,7 @@ PAGES = [f"{RESULTS}/pages/{page}" for page in pages_of(STUDY)]
 RECORDINGS = [f"{RESULTS}/recordings/{place.scenario}.rrd" for place in recorded_places(STUDY)]
 FINDINGS = f"{RESULTS}/claims.json"
 CHECK = [f"{RESULTS}/check.txt"] if STUDY.expected else []
-# What pages say besides results. Relative: a project that was moved does not begin again.
+# Other inputs of pages. Paths are relative, so a project that was moved does not run again.
 QUOTED = ["pyproject.toml", *map(os.path.relpath, sorted(ROOT.glob("workflow/templates/*")))]
 QUOTED += ["CITATION.cff", "config.yaml", DEVIATIONS] * IS_SHIPPED
 
@@ -93,13 +93,13 @@ rule in_browser:
     params:
         **calls("recording.in_browser:script"),
     message:
-        "Write what a browser needs to repeat the recorded run"
+        "Write the data with which a browser repeats the recorded run"
     script:
         "../scripts/call.py"
 
 
 def committed(path):
-    """Where a file of the shipped study is committed."""
+    """The committed path of a file of the shipped study."""
     name = Path(path).name
     if path in FIGURES:
         return f"figures/{name}"
@@ -113,7 +113,7 @@ PUBLISHED = [
 ]
 
 
-# A copy takes no time: whatever becomes of a drawing, the committed file is there.
+# Copies are a rule of their own: if drawing fails, the committed file remains.
 rule publish:
     input:
         sources=PUBLISHED,
@@ -135,7 +135,7 @@ if IS_SHIPPED:
     EVERYTHING += [committed(path) for path in PUBLISHED]
 
 
-# What a target of its own measures, with its tables, its figure and its page.
+# Targets outside the default run, with their tables, figure and page.
 APART = {
     "benchmark": (
         ["benchmark.csv", "benchmark_moves.csv"],
@@ -211,14 +211,14 @@ for part, (tables, figure, page) in APART.items():
                 else [*made, f"{RESULTS}/pages/{page}"]
             ),
         message:
-            f"Its results are in {RESULTS}"
+            f"The results are in {RESULTS}"
 
 
 rule article:
     input:
         source=f"{RESULTS}/pages/article.typ",
         references="workflow/article/references.bib",
-        # not that of the benchmark: the article shows the committed one, which would take minutes
+        # without the benchmark's figure, which takes minutes: the article uses the committed one
         figures=[*FIGURES, "figures/method.svg"],
     output:
         article=f"{RESULTS}/article.pdf",
@@ -228,7 +228,7 @@ rule article:
     params:
         **calls("pages.article:typeset"),
     message:
-        "Set the article"
+        "Typeset the article"
     script:
         "../scripts/call.py"
 
@@ -244,7 +244,7 @@ rule film:
     params:
         **calls("recording.film:take_film"),
     message:
-        "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
+        "Film the arm with the viewer, which needs a Vulkan driver (minutes with a software driver)"
     script:
         "../scripts/call.py"
 

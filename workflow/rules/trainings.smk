@@ -1,4 +1,4 @@
-"""Scenarios, settings, trainings, and what is measured of the mapping."""
+"""Scenarios, settings, trainings, and measurements of the mapping."""
 
 from recalib.nominal.descriptions import find_urdf
 from replication.config.shipped import OUTCOMES
@@ -32,7 +32,7 @@ rule scenarios:
     params:
         **calls("training.scenarios:write_scenarios"),
     message:
-        "Put the damages on the robots"
+        "Apply the damages to the robots"
     script:
         "../scripts/call.py"
 
@@ -55,7 +55,7 @@ rule settings:
         "../scripts/call.py"
 
 
-# A rule for each place: each trains learners of its own.
+# One rule for each place, because each has its own learners.
 for place in PLACES:
 
     rule:
@@ -96,7 +96,7 @@ rule ensemble:
     params:
         **calls("training.ensemble:train_ensemble"),
     message:
-        "Train on other damages"
+        "Train on other assignments of the damage"
     script:
         "../scripts/call.py"
 
@@ -119,7 +119,7 @@ rule mapping:
     params:
         **calls("mapping.measured:measure"),
     message:
-        "Measure the mapping that is to be learned"
+        "Measure the true mapping"
     script:
         "../scripts/call.py"
 
@@ -143,5 +143,5 @@ rule learning:
         "../scripts/call.py"
 
 
-# What claims, figures and pages read of these.
+# Tables for claims, figures and pages.
 TABLES = [*rules.ensemble.output, *rules.mapping.output, *rules.learning.output]

@@ -1,9 +1,8 @@
-"""The one script of the workflow: it calls the function that a rule names, and writes what that
-returns.
+"""The only script of the workflow: it calls a rule's function, and writes the returned values.
 
-A function gets the study and the arguments that the rule's `params` give. The paths of inputs and
-outputs it gets by their names, if it asks for them; the outputs that it does not ask for are
-written from what it returns.
+The function gets the study, the rule's `params`, and the paths of inputs and outputs as arguments,
+if its signature has their names. Returned values are written to those outputs that are not
+arguments.
 """
 
 import atexit
@@ -25,7 +24,7 @@ from replication.running.outputs import write
 
 
 def main(job: Snakemake) -> None:
-    """Do the job of a rule. A mistake of the user's or of the system is reported in one line."""
+    """Do the job of a rule. Mistakes of users and errors of the system are reported in one line."""
     function: Callable[..., Any] = resolve_name(job.params.function)
     parameters = inspect.signature(function).parameters
     files = {**dict(job.input.items()), **dict(job.output.items())}
@@ -49,16 +48,16 @@ def main(job: Snakemake) -> None:
 
 
 def into(log: Path) -> None:
-    """Send what the job prints into its log, and that to the terminal at the job's end."""
+    """Write the job's output into its log, and the log to the terminal when the job ends."""
     terminal = os.dup(2)
     with log.open("wb") as file:
         os.dup2(file.fileno(), 1)
         os.dup2(file.fileno(), 2)
-    # after Python has printed why it ends
+    # exit handlers run after Python has printed a traceback
     atexit.register(lambda: os.write(terminal, log.read_bytes()))
 
 
-snakemake: Snakemake  # Snakemake defines it where this is its script
+snakemake: Snakemake  # defined when Snakemake runs this script
 if "snakemake" in globals():
     into(Path(snakemake.log[0]))
     main(snakemake)

@@ -1,4 +1,4 @@
-// A recording takes the place of the button that asks for it.
+// The button for the recording is replaced by the recording.
 document$.subscribe(() => {
   for (const button of document.querySelectorAll("button.embed"))
     button.onclick = () => {

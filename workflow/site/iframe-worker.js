@@ -1,4 +1,4 @@
-// A browser starts no worker from a file. There the site's search runs in a hidden frame instead.
+// Browsers start no workers from local files, so the site's search uses a hidden frame instead.
 if (location.protocol === "file:")
   window.Worker = window.IFrameWorker = class extends EventTarget {
     constructor(url) {

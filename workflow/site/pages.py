@@ -1,4 +1,4 @@
-"""The site's pages: those of the repository from where they lie, and one from the docstrings."""
+"""The site's pages: the repository's pages in their places, and a reference from docstrings."""
 
 import ast
 import importlib
@@ -24,11 +24,11 @@ SHOWN = (
     "workflow/site/**/*.[cj]s*",
     "docs/*.js",
 )
-PLACES = {"docs/index.md": "index.html", "README.md": "README.html"}  # others keep theirs
-WIDE = "docs/index.md", "docs/try.md", "docs/watch.md"  # without columns beside the text
-BADGES = re.compile(r"^\[!\[.*\n\n", re.MULTILINE)  # pictures from elsewhere
+PLACES = {"docs/index.md": "index.html", "README.md": "README.html"}  # others do not move
+WIDE = "docs/index.md", "docs/try.md", "docs/watch.md"  # without side columns
+BADGES = re.compile(r"^\[!\[.*\n\n", re.MULTILINE)  # images from other servers
 WATCH, VIEWER = "docs/watch.md", "viewer"
-# Where the picture is in the repository: the viewer has 35 MB, so nothing is loaded before a click.
+# Replaces the picture on the repository's page. The viewer (35 MB) is only loaded after a click.
 EMBEDDED = f"""<button type="button" class="md-button embed" data-address="../{VIEWER}/{PAGE}">
 Watch the recording here (35 MB)</button>
 
@@ -41,7 +41,7 @@ REFERENCE = """# Reference
 | part | names |
 | --- | --- |
 """
-PARTS = {  # parts of recalib: the title of their page, and the example that it begins with
+PARTS = {  # parts of recalib: title of the page, and its first example
     "nominal": ("Arms, robots and controllers", "ur10.py"),
     "damaged": ("Damages, disturbances and plants", "redundant_arm.py"),
     "loop": ("Training", "own_robot.py"),
@@ -54,7 +54,7 @@ PARTS = {  # parts of recalib: the title of their page, and the example that it 
 
 
 def on_config(config):
-    """Link the repository, once the project has an address; nothing is fetched from there."""
+    """Add a link to the repository, if the project has an address; nothing is fetched from it."""
     if repository := Imprint.read(Path(config.config_file_path).parent).repository:
         link = {"icon": "fontawesome/brands/git-alt", "link": repository, "name": "Repository"}
         config.extra["social"] = [link]
@@ -62,7 +62,7 @@ def on_config(config):
 
 
 def on_files(files: Files, config) -> Files:
-    """All that the site has of this project, beside what the theme brings."""
+    """Collect all of the project's files for the site; the theme adds its own."""
     root = Path(config.config_file_path).parent
     for file in list(files):
         if file.src_dir == config.docs_dir:
@@ -78,7 +78,7 @@ def on_files(files: Files, config) -> Files:
 
 
 def on_page_markdown(markdown: str, page, config, files: Files) -> str:
-    """Give some pages the whole width, and one the recording, if it was made."""
+    """Give some pages the full width, and embed the recording, if there is one."""
     if page.file.src_uri == "README.md":
         markdown = BADGES.sub("", markdown)
     if page.file.src_uri in WIDE:
@@ -89,7 +89,7 @@ def on_page_markdown(markdown: str, page, config, files: Files) -> str:
 
 
 def on_post_build(config) -> None:
-    """Put the viewer beside the pages, with a recording in it."""
+    """Add the viewer with the recording to the site."""
     if _recording(config).exists():
         embed(_recording(config), Path(config.site_dir) / VIEWER)
 
@@ -99,7 +99,7 @@ def _recording(config) -> Path:
 
 
 def reference() -> dict[str, str]:
-    """Pages of the public names by their paths in docs: an overview, and one for each part."""
+    """Reference pages by their paths in docs: an overview, and a page for each part of recalib."""
     parts = _parts()
     overview = [
         f"| [{title}](reference/{part}.md) | "
@@ -113,7 +113,7 @@ def reference() -> dict[str, str]:
 
 
 def _page(part: str, names: list[str]) -> str:
-    """The page of one part: an example, then its names, each with the examples that use it."""
+    """The page of a part: an example, then public names, each with links to examples."""
     title, first = PARTS[part]
     (example,) = (path for path in EXAMPLES if path.name == first)
     page = [
@@ -134,7 +134,7 @@ def _link(example: Path) -> str:
 
 
 def _parts() -> dict[str, list[str]]:
-    """The public names of each package of recalib, and of its errors, as the stub lists them."""
+    """The public names in each part of recalib, from its stub."""
     stub = ast.parse(Path(recalib.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
     parts: dict[str, list[str]] = {part: [] for part in PARTS}
     for node in stub.body:
@@ -145,7 +145,7 @@ def _parts() -> dict[str, list[str]]:
 
 @cache
 def _public_names(example: Path) -> set[str]:
-    """Those of recalib in an example, as `recalib.NAME` or imported from it."""
+    """The public names that an example uses, as `recalib.NAME` or by import."""
     used = set()
     for node in ast.walk(ast.parse(example.read_text(encoding="utf-8"))):
         match node:

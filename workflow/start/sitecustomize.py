@@ -1,7 +1,7 @@
-"""What every job's Python does first: an interrupt ends it at once, as it ends any other program.
+"""Runs first in the Python of every job: an interrupt ends it at once, like any other program.
 
-Python would answer Ctrl-C with a traceback. What a job leaves in the making goes when the next run
-begins, as after any other end.
+Otherwise Python would print a traceback after Ctrl-C. The next run removes temporary files of the
+interrupted job.
 """
 
 import signal

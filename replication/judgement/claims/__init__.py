@@ -1,6 +1,6 @@
-"""The paper's claims, in its order: a file for each section.
+"""The paper's claims, in the order of the paper: a file for each section.
 
-What changed in them after a result had been seen stands in `workflow/deviations.yaml`.
+Changes after a result had been seen are listed in `workflow/deviations.yaml`.
 """
 
 from contextlib import suppress
@@ -25,19 +25,19 @@ from replication.judgement.findings import Finding, written
 
 def claims(study: Study) -> list[Claim]:
     """All claims of the paper."""
-    own, late = study.experiments.iterations, study.campaign.late
+    iterations, late = study.experiments.iterations, study.campaign.late
     return [
-        *section_3.claims(own),
-        *section_4.claims(own, late),
-        *section_5.claims(own),
-        *section_6.claims(own),
-        *section_7.claims(own),
-        *section_8.claims(own),
+        *section_3.claims(iterations),
+        *section_4.claims(iterations, late),
+        *section_5.claims(iterations),
+        *section_6.claims(iterations),
+        *section_7.claims(iterations),
+        *section_8.claims(iterations),
     ]
 
 
 def judge(evidence: Evidence) -> tuple[Finding, ...]:
-    """What was found about each claim for which the study has what it takes."""
+    """The findings about all claims for which the study has the necessary results."""
     findings = []
     for claim in claims(evidence.study):
         with suppress(NotMeasured):
@@ -46,5 +46,5 @@ def judge(evidence: Evidence) -> tuple[Finding, ...]:
 
 
 def findings_of(study: Study) -> bytes:
-    """The text of the file of a study's findings."""
+    """The content of the file of a study's findings."""
     return written(judge(Evidence(study)))

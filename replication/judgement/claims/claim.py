@@ -1,4 +1,4 @@
-"""What a claim is, and how it is judged."""
+"""The claims of the paper as data, and how they are judged."""
 
 import inspect
 from collections.abc import Callable, Mapping
@@ -16,20 +16,20 @@ from replication.judgement.verdicts import RATIO, Comparison, Verdict
 
 @dataclass(frozen=True)
 class Statement:
-    """What the paper says, and what would support it."""
+    """A statement in the paper, and the criterion that would support it."""
 
     id: str  # its name
     section: str  # the section of the paper
-    words: str  # the paper's own
-    claim: str  # what they say, in a sentence
-    criterion: str  # what supports the claim
-    reason: str  # why just that
+    words: str  # a quotation from the paper
+    claim: str  # the claim in one sentence
+    criterion: str  # the condition that supports the claim
+    reason: str  # why this criterion was chosen
     published: str | None = None  # the paper's number, if any
 
     def finding(
         self, verdict: Verdict, *estimates: Number, note: str = "", spread: Spread | None = None
     ) -> Finding:
-        """What was found about it."""
+        """The finding about this statement."""
         stated = {name: value for name, value in vars(self).items() if name in Finding.model_fields}
         found = {"verdict": verdict, "estimates": estimates, "note": note, "spread": spread}
         return Finding.model_validate({"statement": self.words} | stated | found)
@@ -37,22 +37,22 @@ class Statement:
 
 @dataclass(frozen=True, kw_only=True)
 class OfSetups(Statement):
-    """A claim that one number in all setups decides."""
+    """A claim whose verdict depends on one number in all setups."""
 
-    name: str  # what the number is called
-    system: str  # the algorithm of which the paper speaks
+    name: str  # name of the number
+    system: str  # the algorithm that the paper describes
     estimand: Estimand  # the number
-    comparison: Comparison = RATIO  # with what it is compared
-    # more numbers, by name and system, which decide nothing
+    comparison: Comparison = RATIO  # the limit with which the number is compared
+    # further numbers, by name and system, without effect on the verdict
     secondary: Mapping[tuple[str, str], Estimand] = field(default_factory=dict)
 
     @property
     def registered(self) -> tuple[object, ...]:
-        """What its verdict follows from."""
+        """Everything that determines the verdict, apart from registered files."""
         return self.words, self.criterion, self.estimand, self.comparison
 
     def judge(self, evidence: Evidence) -> Finding:
-        """Raises NotMeasured: too few setups have the number."""
+        """The finding. Raises NotMeasured if too few setups have the number."""
         values = self.values(evidence)
         model, setups = values.model(), values.table.index
         numbers = [number(self.name, self.system, model.mean, model.another)]
@@ -71,7 +71,7 @@ class OfSetups(Statement):
         )
 
     def values(self, evidence: Evidence) -> Values:
-        """The number in each setup. Raises NotMeasured, as `judge`."""
+        """The number in each setup. Raises NotMeasured like `judge`."""
         values = self.estimand.values(evidence.outcomes())
         if not enough(values):
             raise TooFewSetups(self.name)
@@ -79,11 +79,11 @@ class OfSetups(Statement):
 
 
 class TooFewSetups(NotMeasured):
-    """The campaign has not measured a number in so many setups that a verdict may follow."""
+    """The campaign has measured a number in too few setups for a verdict."""
 
 
 def enough(values: Values) -> bool:
-    """Whether a verdict may follow: enough setups, and one of them measured twice."""
+    """Whether there can be a verdict: enough setups, and at least one with two replicates."""
     counts = np.isfinite(values.table).sum(axis=1)
     return len(counts) >= FEWEST and bool(counts.max() > 1)
 
@@ -96,11 +96,11 @@ class Measured(Statement):
 
     @property
     def registered(self) -> tuple[object, ...]:
-        """What its verdict follows from."""
+        """Everything that determines the verdict, apart from registered files."""
         return self.words, self.criterion, inspect.getsource(self.judge_)
 
     def judge(self, evidence: Evidence) -> Finding:
-        """Raises NotMeasured."""
+        """The finding. Raises NotMeasured."""
         return self.judge_(self, evidence)
 
 
@@ -108,11 +108,11 @@ Claim = OfSetups | Measured
 
 
 def of_all(*verdicts: Verdict) -> Verdict:
-    """The verdict on a claim of several parts: that on the first which is not supported."""
+    """The verdict on a claim with several parts: that of the first part that is not supported."""
     unsupported = (verdict for verdict in verdicts if verdict is not Verdict.SUPPORTED)
     return next(unsupported, Verdict.SUPPORTED)
 
 
 def log(limit: float) -> float:
-    """The logarithm of a limit."""
+    """The natural logarithm of a limit."""
     return float(np.log(limit))

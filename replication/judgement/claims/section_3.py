@@ -13,8 +13,8 @@ from replication.judgement.verdicts import RATIO, Comparison, Verdict
 from replication.training.measured import ERRORS
 
 LARGEST = 0.001  # cm and degrees: rounding and the controller's tolerance cause far less
-SLOW = 0.25  # a share: a learner that leaves so much is not quick
-WORSE = 1.1  # times the least quantisation error known counts as least
+SLOW = 0.25  # remaining share of the error, from which on a learner is not quick
+WORSE = 1.1  # factor: up to this multiple of the least known error, an error counts as least
 
 
 def identity(statement: Statement, evidence: Evidence) -> Finding:

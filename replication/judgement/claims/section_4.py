@@ -12,10 +12,10 @@ from replication.judgement.hierarchy import student
 from replication.judgement.verdicts import RATIO, of_share, share_interval
 from replication.training.measured import KINDS
 
-WEAK = 0.1  # of the direct effect: *slowly* is an order of magnitude
+WEAK = 0.1  # ratio to the direct effect: *slowly* means an order of magnitude
 POSES = 0.95
-BOX = 2  # times as long as the workspace
-RISES = RATIO._replace(below=False)  # the paper is right above 1
+BOX = 2  # size of the box relative to the workspace
+RISES = RATIO._replace(below=False)  # ratios above 1 support the paper
 ONE, TWO = "Ritter's one map", "Ritter's two maps"
 ONE_TWO = "Ritter's algorithm"
 

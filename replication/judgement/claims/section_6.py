@@ -10,11 +10,11 @@ from replication.judgement.findings import Finding, Number, number
 from replication.judgement.hierarchy import student
 from replication.judgement.verdicts import Comparison, Verdict
 
-FEW, MANY = 20, 10  # iterations: a tenth of Figure 1's; an order of magnitude
-NEAR_A_FACE = 0.3  # widths up to this one see one face of the workspace only
-DEVIATION = 0.05  # of the formula: no schedule would show less
+FEW, MANY = 20, 10  # iterations, a tenth of Figure 1's; a factor, an order of magnitude
+NEAR_A_FACE = 0.3  # up to this width, only one face of the workspace has an effect
+DEVIATION = 0.05  # relative deviation from the formula; schedules would not show a smaller one
 ERRORS = 3.0  # standard errors of Monte Carlo
-AWAY = 3.0  # sigma from the border: they hold 99.7 % of a Gaussian
+AWAY = 3.0  # distance from the border in sigma: 99.7 % of a Gaussian are nearer
 
 
 def coarse_widths(statement: Statement, evidence: Evidence) -> Finding:

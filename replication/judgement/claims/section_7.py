@@ -25,9 +25,9 @@ from replication.scenarios.assignments import TIE
 from replication.training.measured import ERRORS, KINDS, NONE, RIGID
 
 PUBLISHED = 70
-LONG = 50  # more than 10,000 iterations over 200
-SMALL = 0.1  # a share: an order of magnitude is the least that a figure would show
-NEAR = 0.05  # of both published errors
+LONG = 50  # factor: 10,000 iterations divided by 200
+SMALL = 0.1  # remaining share: a figure shows a reduction by an order of magnitude
+NEAR = 0.05  # relative deviation from both published errors
 
 
 def rigid(statement: Statement, evidence: Evidence) -> Finding:

@@ -79,16 +79,16 @@ def test_what_is_laid_over_it_keeps_its_own_place(whole):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("a: 1\nb: {c: 1,\n  c: 2}\n", "3:3: no YAML: c stands twice"),
-        ("a:\n\tb: 1\n", "2:1: no YAML: found character .* that cannot start any token"),
-        ("a: 1\n  b: 2\n", "2:4: no YAML: mapping values are not allowed here"),
-        ("a: [1, 2\nb: 3\n", "2:2: no YAML: .* in what begins in line 1"),
-        ("a: !!python/name:os.getcwd x\n", "1:1: no YAML: the tag .*os.getcwd"),
-        ("? [a]\n: 1\n", "1:3: no YAML: a key that is no text"),
+        ("a: 1\nb: {c: 1,\n  c: 2}\n", "3:3: invalid YAML: duplicate key c"),
+        ("a:\n\tb: 1\n", "2:1: invalid YAML: found character .* that cannot start any token"),
+        ("a: 1\n  b: 2\n", "2:4: invalid YAML: mapping values are not allowed here"),
+        ("a: [1, 2\nb: 3\n", "2:2: invalid YAML: .* in the part from line 1"),
+        ("a: !!python/name:os.getcwd x\n", "1:1: invalid YAML: unknown tag .*os.getcwd"),
+        ("? [a]\n: 1\n", "1:3: invalid YAML: a key that is not text"),
         *((text, NOTHING) for text in ("seed\n", "", "# nothing\n", "{}\n", "---\n")),
         (None, " No such file or directory"),
-        ("a: \udcff\n", " no text in UTF-8"),
-        ("a: \x07\n", " no text in UTF-8"),
+        ("a: \udcff\n", " not a text in UTF-8"),
+        ("a: \x07\n", " not a text in UTF-8"),
         pytest.param(
             "a: " + "[" * 9999, " an anchor within itself, or too many brackets", id="deep"
         ),

@@ -116,7 +116,7 @@ def test_a_failure_names_the_training_the_value_and_the_band(tmp_path):
     assert "0.25" in report(summary, bands)
     write(summary, SUMMARY.assign(final_position_error_cm=[7.0, 0]))
     message = (
-        "1 of 4 final errors are outside of their bands\nimproved, 200 iterations, on the ur10,"
+        "1 of 4 final errors are outside their bands\nimproved, 200 iterations, on the ur10,"
         " links: position_error_cm is 7, expected 0.2304 to 0.2756"
     )
     with pytest.raises(RecalibError, match=message):

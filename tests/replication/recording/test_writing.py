@@ -50,7 +50,7 @@ def test_a_recording_that_differs_from_the_history_is_not_written(small, files, 
     spoilt, rrds = tmp_path / "improved.parquet", [tmp_path / "a.rrd", tmp_path / "b.rrd"]
     table.to_parquet(spoilt)
     histories = [spoilt, *files.histories[1:]]
-    with pytest.raises(InvalidFile, match="orientation_error_deg is not that of the same training"):
+    with pytest.raises(InvalidFile, match="orientation_error_deg differs from that of the"):
         record(small, files.scenarios, files.settings, histories, rrds)
     assert [*tmp_path.iterdir()] == [spoilt]
 

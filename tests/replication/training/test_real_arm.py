@@ -177,7 +177,7 @@ def test_tables_of_too_little_or_in_another_frame_are_refused(
     columns = {f"{joint} [rad]": recording.angles[:, i] for i, joint in enumerate(ur5.joints)}
     columns |= {f"{axis} [m]": recording.measured[:, i] for i, axis in enumerate("xyz")}
     pd.DataFrame(columns).to_csv(tmp_path / "half.csv", index=False)
-    with pytest.raises(InvalidFile, match="lacks x_nominal, y_nominal, z_nominal or what was"):
+    with pytest.raises(InvalidFile, match="x_nominal, y_nominal, z_nominal or measured posi"):
         read_of(ur5.arm, tmp_path / "half.csv", Description(instrument=np.eye(4)))
     path = tmp_path / "table.csv"
     table.assign(x_t=-table["x_t"], y_t=-table["y_t"]).to_csv(path, index=False)
@@ -196,5 +196,5 @@ def test_another_table_than_the_one_that_is_meant_is_refused(study, tmp_path):
     with pytest.raises(RecalibError, match=f"has SHA-256 {actual}; expected {digest}"):
         fetch(changed(study, real={"data": {"fit": right, "test": wrong}}))
     gone = str(tmp_path / "gone.csv")
-    with pytest.raises(RecalibError, match=r"gone.csv is out of reach .* can be named in real"):
+    with pytest.raises(RecalibError, match=r"gone.csv is out of reach .* set `file` in real"):
         fetched(Source(url="https://there", file=gone, sha256="0" * 64))

@@ -1,16 +1,16 @@
-// Kinematics of a serial arm, as recalib.nominal.chain has it. A pose is the first three rows of
-// a homogeneous matrix [m], one after the other; angles are in rad.
+// Kinematics of a serial arm, as in recalib.nominal.chain. A pose is the first three rows of a
+// homogeneous matrix [m], as one array; angles are in rad.
 
 const TOLERANCE = 1e-11, STEPS = 25, LONGEST_STEP = 0.5, SINGULAR = 1e9;
 
 class Arm {
-  // placements: of each joint, which turns about its z axis, in the frame of the one before it;
-  // then of the tool
+  // placements: pose of each joint, which turns about its z axis, in the frame of the previous
+  // joint, and of the tool in the last joint's frame
   constructor(placements) {
     this.placements = placements;
   }
 
-  // The tool's pose, and where the joints lie and point.
+  // The tool's pose, and the joints' origins and axes.
   stand(angles) {
     const pose = Float64Array.from(this.placements[0]);
     const origins = [], directions = [];
@@ -34,7 +34,7 @@ class Arm {
     return this.stand(angles).pose;
   }
 
-  // Angles near `start` that take the tool to `goal`, by Newton's method; null where none do.
+  // Angles near `start` that take the tool to `goal`, by Newton's method; null if there are none.
   inverse(goal, start) {
     let angles = start;
     for (let step = 0; step < STEPS; step++) {
@@ -49,7 +49,7 @@ class Arm {
   }
 }
 
-// What takes a pose to a goal: a translation, and a turn as its axis times the sine of its angle.
+// The motion from a pose to a goal: a translation, and the rotation axis times the angle's sine.
 function difference(pose, goal) {
   const residual = [goal[3] - pose[3], goal[7] - pose[7], goal[11] - pose[11]];
   for (let row = 0; row < 3; row++) {
@@ -62,7 +62,7 @@ function difference(pose, goal) {
   return residual;
 }
 
-// Rows of the matrix from joint velocities to the tool's, along the base's axes.
+// Rows of the Jacobian: from joint velocities to the tool's velocity, along the base's axes.
 function jacobian({ pose, origins, directions }) {
   const rows = Array.from({ length: 6 }, () => []);
   directions.forEach((direction, joint) => {
@@ -76,7 +76,7 @@ function jacobian({ pose, origins, directions }) {
   return rows;
 }
 
-// Solves linear equations by elimination with pivots; writes over both.
+// Solves linear equations by elimination with pivoting; overwrites both arguments.
 function solve(matrix, vector) {
   const size = vector.length;
   for (let column = 0; column < size; column++) {

@@ -1,13 +1,13 @@
-// The study's training, and an identification, on an arm with any damage.
+// The study's training, and an identification, on an arm with arbitrary damage.
 
-const MOVES = 3; // to identify from: 18 numbers for ten
-const LITTLE = 1e-6; // m, rad: for derivatives
+const MOVES = 3; // for identification: 18 measured numbers for ten parameters
+const STEP = 1e-6; // m, rad: for derivatives
 
 class Experiment {
   constructor(study) {
     this.study = study;
     this.controller = new Controller(study.robot);
-    // no damage changes what the controller does: each pose is solved once
+    // the controller does not depend on the damage, so each pose is solved only once
     [this.desired, this.tests] = [study.desired, study.tests].map(poses => poses.map(u => ({
       u, pose: this.controller.workspace.toPose(u), angles: this.controller.angles(u),
     })));
@@ -17,7 +17,7 @@ class Experiment {
     return new Plant(this.controller, this.study.robot.links, damage);
   }
 
-  // What is measured of such an arm, before learning and after every so many iterations.
+  // Measurements of an arm with this damage, before learning and at intervals of iterations.
   *train(damage) {
     const { iterations, every, schedule } = this.study;
     const plant = this.plant(damage), map = new ImprovedMap(this.study, schedule);
@@ -34,7 +34,7 @@ class Experiment {
     yield this.measure(plant, command);
   }
 
-  // Mean errors over the test poses, and the joint angles that the controller was led to.
+  // Mean errors over the test poses, and the joint angles that the controller chose.
   measure(plant, correct) {
     const angles = this.tests.map(correct);
     const each = this.tests.map(({ pose }, test) => errors(plant.achieve(angles[test]), pose));
@@ -43,7 +43,7 @@ class Experiment {
     return { position, orientation, angles };
   }
 
-  // The damage, found from a few uncorrected moves by Gauss and Newton's method.
+  // The damage, identified from a few uncorrected moves by the Gauss-Newton method.
   identify(damage) {
     const moves = this.desired.slice(0, MOVES);
     const achieved = guess => moves.flatMap(({ angles }) =>
@@ -53,16 +53,16 @@ class Experiment {
     do {
       const predicted = achieved(guess), residual = minus(measured, predicted);
       const columns = guess.map((_, which) => {
-        const beside = guess.map((number, index) => number + (index === which ? LITTLE : 0));
-        return minus(achieved(beside), predicted).map(number => number / LITTLE);
+        const shifted = guess.map((number, index) => number + (index === which ? STEP : 0));
+        return minus(achieved(shifted), predicted).map(number => number / STEP);
       });
       change = solve(columns.map(column => times(columns, column)), times(columns, residual));
       guess = plus(guess, change);
-    } while (largest(change) > LITTLE); // the next one would be its square
+    } while (largest(change) > STEP); // convergence is quadratic: the next step is negligible
     return guess;
   }
 
-  // What is measured once the identified arm says which joint angles a pose needs.
+  // Measurements with commands from the identified arm.
   identified(damage) {
     const known = this.plant(this.identify(damage));
     return this.measure(this.plant(damage), ({ pose, angles }) => known.anglesFor(pose, angles));

@@ -1,6 +1,6 @@
-// The improved system: two hierarchical maps, by (1) and (6) to (9), and the schedule of section 6.
-// Both have their cells at the same centres, so one array holds the rows of both. As
-// recalib.learners.hierarchical.
+// The improved system: two hierarchical maps, by (1) and (6) to (9), and the schedule of section 6,
+// as in recalib.learners.hierarchical. Both maps have cells at the same centres, so one array holds
+// the rows of both.
 
 const SHORTEST_MOVE = 1e-6, DIMENSIONS = 3;
 const OUTPUTS = { position: [0, 1, 2], orientation: [3, 4, 5] };
@@ -23,7 +23,7 @@ class ImprovedMap {
     return plus(this.theta[cell], times(this.jacobians[cell], minus(desired, this.centres[cell])));
   }
 
-  // One iteration. execute: from a command to { achieved, executed }; fraction: of the training
+  // One iteration. execute: from a command to { achieved, executed }; fraction of the training
   learn(desired, execute, fraction) {
     const [k, l] = this.winner(desired), jacobian = this.jacobians[k * this.subnet.length + l];
     const command = this.command(desired), first = execute(command);
@@ -47,7 +47,7 @@ class ImprovedMap {
     }
   }
 
-  // g_k and g_kl about the winner, for one of both maps
+  // g_k and g_kl about the winner, for one of the two maps
   neighbourhood(k, l, name, fraction) {
     const { initial_width, final_widths } = this.schedule;
     return [[this.supernet, k], [this.subnet, l]].map(([centres, won], net) => {
@@ -67,13 +67,13 @@ const dot = (a, b) => a.reduce((sum, number, i) => sum + number * b[i], 0);
 const times = (matrix, vector) => matrix.map(row => dot(row, vector));
 const linear = (start, end, fraction) => start + (end - start) * fraction;
 
-// Section 6: as many visits of a cell at every width.
+// Section 6: the same number of visits of a cell at every width.
 function equalVisits(start, end, fraction) {
   const power = 1 - DIMENSIONS;
   return linear(start ** power, end ** power, fraction) ** (1 / power);
 }
 
-// The middles of equal boxes, so many along each of three coordinates.
+// The middles of equal boxes, with given numbers along three coordinates.
 function grid(shape) {
   const middles = shape.map(n => Array.from({ length: n }, (_, i) => (2 * i + 1) / n - 1));
   const longer = (points, along) => points.flatMap(point => along.map(x => [...point, x]));

@@ -1,11 +1,11 @@
-// The page: sliders, the arm from two sides, and its errors while it learns.
+// The page: sliders, two views of the arm, and its errors during learning.
 
 const VIEWS = { side: [0, 2, "-14 -80 128 86"], above: [0, 1, "-14 -66 128 86"] }; // axes; cm
 const SHOWN = 12; // poses
 const SLIDERS = { links: [0, 5, "cm", 100], joints: [-6, 6, "°", 180 / Math.PI] };
 const ERRORS = { position: "cm", orientation: "°" };
 const TICKS = [0, 50, 100, 150, 200];
-const PAUSE = 50; // ms between two measurements that are shown
+const PAUSE = 50; // ms between displayed measurements
 
 const find = selector => document.querySelector(`#try ${selector}`);
 const withUnit = (number, unit) => `${number}${unit === "°" ? "" : " "}${unit}`;
@@ -58,7 +58,7 @@ class Page {
     this.damage();
   }
 
-  // The sliders were moved: nothing is learned yet of such a damage.
+  // The sliders were moved: restart learning for the new damage.
   damage() {
     this.now = this.inputs.map(input => input.get());
     this.plant = this.experiment.plant(this.now);
@@ -92,7 +92,7 @@ class Page {
       + ` ${position.toFixed(2)} cm and ${orientation.toFixed(2)}° on average.`;
   }
 
-  // The arm and its errors at a measurement, learning until then where it has not.
+  // Show the arm and its errors at a measurement; first learn up to it, if necessary.
   show(step) {
     while (this.history.length <= step) this.history.push(this.training.next().value);
     this.time.value = step;

@@ -1,4 +1,4 @@
-// A damaged robot behind the controller of the intact one: recalib.nominal.poses and
+// A damaged robot with the controller of the intact robot, as in recalib.nominal.poses and
 // recalib.damaged. Commands and achieved poses are coordinates u of the workspace, in [-1, 1]^6.
 
 class Workspace {
@@ -33,7 +33,7 @@ class Workspace {
   }
 }
 
-// The turn from the orientation of one pose to that of another.
+// The rotation from the orientation of one pose to that of another.
 function relative(from, to) {
   return [0, 1, 2].map(row => [0, 1, 2].map(column =>
     [0, 4, 8].reduce((sum, k) => sum + from[k + row] * to[k + column], 0)));
@@ -50,7 +50,7 @@ function errors(achieved, desired) {
   ];
 }
 
-// Keeps the robot's intact arm; Newton's method starts from the joint angles `near`, or from home.
+// The controller uses the intact arm; Newton's method starts from the joint angles `near`, or home.
 class Controller {
   constructor({ placements, home, lower, upper, half_ranges }) {
     Object.assign(this, { home, lower, upper });
@@ -58,7 +58,7 @@ class Controller {
     this.workspace = new Workspace(this.arm.forward(home), half_ranges);
   }
 
-  // Joint angles that the controller chooses for a command; null where it refuses it.
+  // Joint angles that the controller chooses for a command; null if it refuses the command.
   angles(command, near) {
     return this.within(this.arm.inverse(this.workspace.toPose(command), near ?? this.home));
   }
@@ -69,8 +69,8 @@ class Controller {
   }
 }
 
-// links: names, and which placement is at their ends; damage: the length [m] taken off each, then
-// the angle [rad] by which each joint stands beyond what its encoder reports.
+// links: names, and indices of the placements at their ends; damage: length [m] taken off each
+// link, then the true angle of each joint minus the angle that its encoder reports [rad].
 class Plant {
   constructor(controller, links, damage) {
     const { placements } = controller.arm, shortened = [...placements];
@@ -84,17 +84,17 @@ class Plant {
     this.offsets = damage.slice(links.length);
   }
 
-  // Angles at which the joints stand, of those that the controller assumes.
+  // True joint angles, given those that the controller assumes.
   standing(angles) {
     return angles.map((angle, j) => angle + this.offsets[j]);
   }
 
-  // The pose that comes of such angles; home, where the controller refused.
+  // The pose achieved at joint angles of the controller; home if it refused.
   achieve(angles) {
     return this.arm.forward(this.standing(angles ?? this.controller.home));
   }
 
-  // Joint angles to send that take this very arm to a pose, if it is known.
+  // Joint angles for the controller that take this arm to a pose, if its damage is known.
   anglesFor(pose, near) {
     const standing = this.arm.inverse(pose, this.standing(near ?? this.controller.home));
     return this.controller.within(standing?.map((angle, j) => angle - this.offsets[j]) ?? null);
