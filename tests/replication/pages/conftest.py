@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.campaign import DOUBLE
 from replication.config import Study, root_of
 from replication.judgement import Evidence, summarise, written
 from replication.judgement.claims import judge
