@@ -76,7 +76,7 @@ class Board:
             raise InvalidSetting("first_id", self.first_id, f"a whole number from 0 to {most - 1}")
         if self.first_id + self.markers > most:
             found = f"{self.columns} x {self.rows}, with {self.markers} markers"
-            valid = f"at most {most - self.first_id} markers, as many as {self.dictionary} has left"
+            valid = f"at most {most - self.first_id} markers: {self.dictionary} has {most} in all"
             raise InvalidSetting("columns x rows", found, valid)
 
     @property
