@@ -103,10 +103,10 @@ def _placed(
     goal = observations.positions - tool[:, :3, 3] @ turn.T
     system = _by_number(turned, observations.targets)
     if known is None:  # a shift that both could explain goes to the instrument, not the targets
-        alike, middle = system.mean(axis=0), goal.mean(axis=0)
-        points = _smallest(system - alike, goal - middle)
+        common, middle = system.mean(axis=0), goal.mean(axis=0)
+        points = _smallest(system - common, goal - middle)
         base = np.eye(4)
-        base[:3, :3], base[:3, 3] = turn, middle - alike @ points
+        base[:3, :3], base[:3, 3] = turn, middle - common @ points
         points = points.reshape(-1, 3)
     else:
         base, points = known, _least_squares(system, goal - known[:3, 3]).reshape(-1, 3)

@@ -55,7 +55,7 @@ def open_station(text: str) -> Station:
 
 
 def _lacks_a_name(text: str) -> bool:
-    """Whether a text is a Python file that is no program, or a module with only a colon."""
+    """Whether a text is a Python file that is no command, or a module with a bare colon."""
     return text.endswith(":") or (text.endswith(".py") and shutil.which(text) is None)
 
 

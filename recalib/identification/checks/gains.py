@@ -38,23 +38,23 @@ def wrong_gain(geometry: Calibration, observations: Observations) -> WrongGain |
     slopes = slopes_of(geometry, observations, 1)
     model, nominal = slopes.model, geometry.model.nominal
     postures = find_postures(observations.joints, nominal.slides, geometry.estimate.noise[0])
-    alike = len(observations) / len(postures)
+    redundancy = len(observations) / len(postures)
     by_offset = slopes.arm[..., model.offset_columns] / model.deviations[model.offset_columns]
     moved = observations.joints - observations.joints.mean(axis=0)
-    rows, sure = np.arange(len(moved)), []
-    whole = Unexplained(slopes.residuals, slopes.arm, alike)
+    rows, accepted = np.arange(len(moved)), []
+    complete = Unexplained(slopes.residuals, slopes.arm, redundancy)
     for by in np.flatnonzero(~postures.still):
         terms = model.offset_columns.start + len(moved[0]) * np.arange(len(model.names)) + by
         without = slopes.arm.copy()
         without[..., terms[FIRST_WAVE:]] = 0.0
-        plain = Unexplained(slopes.residuals, without, alike)
+        reduced = Unexplained(slopes.residuals, without, redundancy)
         for joint in np.flatnonzero(nominal.slides == nominal.slides[by]):
             columns = by_offset[..., [joint]] * moved[:, by, None, None]
             candidate = Candidate("", rows, columns)
-            share, _, (found,) = plain.plainest(candidate)
+            share, _, (found,) = reduced.strongest(candidate)
             least = LEAST_GAIN if joint == by else LEAST
             if share < SHARE or abs(found) < least:
                 continue
-            if joint == by or whole.plainest(candidate)[0] >= SHARE:
-                sure.append((share, WrongGain(int(joint), int(by), float(found))))
-    return max(sure, key=lambda one: one[0], default=(None, None))[1]
+            if joint == by or complete.strongest(candidate)[0] >= SHARE:
+                accepted.append((share, WrongGain(int(joint), int(by), float(found))))
+    return max(accepted, key=lambda one: one[0], default=(None, None))[1]

@@ -127,6 +127,6 @@ def _dependent(root: np.ndarray, least: np.ndarray) -> Iterator[tuple[int, list[
         effects = np.abs(combination) * np.linalg.norm(root[:, accepted], axis=0)
         largest = effects.max(initial=0.0)
         weakest = SHARE * largest if largest**2 >= least[number] else np.inf
-        alike = np.round(effects / (largest or 1.0), DIGITS)
-        strongest = np.argsort(-alike, kind="stable")[:PARTNERS]
+        rounded = np.round(effects / (largest or 1.0), DIGITS)
+        strongest = np.argsort(-rounded, kind="stable")[:PARTNERS]
         yield number, [accepted[n] for n in strongest if effects[n] >= weakest]

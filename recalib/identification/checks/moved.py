@@ -38,14 +38,14 @@ def moved_ends(found: HandEye) -> tuple[list[Fault], HandEye]:
     """Jumps of the object next to the arm, slips of that on the flange, and a fit without them."""
     faults: list[Fault] = []
     for _ in range(MOST):
-        motion = _plainest(found)
+        motion = _strongest(found)
         if motion[0] < SHARE:
             break
         without = calibrate_hand_eye(_undone(found, motion))
         residuals, _, _ = _whitened(without)
         correlation = max(0.0, np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2))
         refitted = replace(without, sights=found.sights)
-        share, row, step, end = motion = _plainest(refitted, correlation)
+        share, row, step, end = motion = _strongest(refitted, correlation)
         if share < SHARE:
             break
         kind = SLIP if found.sights.in_hand == (end == CAMERA) else JUMP
@@ -66,7 +66,7 @@ def _whitened(found: HandEye) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return residuals, roots @ linear.slopes, by_flange
 
 
-def _plainest(found: HandEye, correlation: float | None = None) -> Motion:
+def _strongest(found: HandEye, correlation: float | None = None) -> Motion:
     """The most significant motion of camera or board.
 
     Args:
@@ -83,7 +83,7 @@ def _plainest(found: HandEye, correlation: float | None = None) -> Motion:
         redundancy = (1 + correlation) / (1 - correlation)
     rest = Unexplained(residuals, np.concatenate(others, axis=2), redundancy)
     ends = (CAMERA, TARGET)
-    tried = [(*rest.plainest(Candidate("", rows, slopes[..., end], ENDS)), end) for end in ends]
+    tried = [(*rest.strongest(Candidate("", rows, slopes[..., end], ENDS)), end) for end in ends]
     return max(tried, key=lambda motion: motion[0])
 
 

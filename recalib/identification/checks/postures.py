@@ -53,8 +53,8 @@ def find_postures(joints: np.ndarray, slides: np.ndarray, noise: float) -> Postu
     tree, numbers = KDTree(places), np.full(len(places), -1)
     for row, place in enumerate(places):
         if numbers[row] < 0:  # all rows of a posture are near its first row, so they form no chain
-            alike = np.array(tree.query_ball_point(place, radius))
-            numbers[alike[numbers[alike] < 0]] = numbers.max() + 1
+            near = np.array(tree.query_ball_point(place, radius))
+            numbers[near[numbers[near] < 0]] = numbers.max() + 1
     return Postures(numbers, moved <= radius)
 
 

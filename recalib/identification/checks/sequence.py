@@ -81,15 +81,15 @@ def _faults(geometry: Calibration, observations: Observations, power: int) -> li
     residuals, arm, weights, model = slopes_of(geometry, observations, power)
     estimate = geometry.estimate
     postures = find_postures(observations.joints, model.nominal.slides, estimate.noise[0])
-    alike = len(observations) / len(postures)
+    redundancy = len(observations) / len(postures)
     candidates = [
         one._replace(columns=one.columns * weights[one.rows, :, None])
         for one in _candidates(geometry, observations)
     ]
     found: list[Fault] = []
-    while len(found) < MOST:  # the most significant fault first, then those that remain beside it
-        rest = Unexplained(residuals, arm, alike)
-        tried = [(*rest.plainest(candidate), candidate) for candidate in candidates]
+    while len(found) < MOST:  # the most significant fault first, then those that remain next to it
+        rest = Unexplained(residuals, arm, redundancy)
+        tried = [(*rest.strongest(candidate), candidate) for candidate in candidates]
         share, after, step, (kind, rows, columns, _) = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
@@ -195,12 +195,12 @@ class Unexplained:
     Args:
         residuals: (n, k) over their noise.
         arm: (n, k, P) slopes of the residuals by parameters over their deviations.
-        alike: the rows per posture. Their unexplained residuals are the same, so they count as one
-            row in significance tests.
+        redundancy: the rows per posture. They have the same unexplained residuals, so they count as
+            one row in significance tests.
     """
 
-    def __init__(self, residuals: np.ndarray, arm: np.ndarray, alike: float):
-        self._residuals, self._arm, self._alike = residuals, arm, alike
+    def __init__(self, residuals: np.ndarray, arm: np.ndarray, redundancy: float):
+        self._residuals, self._arm, self._redundancy = residuals, arm, redundancy
         self._gradient = np.einsum("nkp,nk->p", arm, residuals)
         rows = arm.reshape(-1, arm.shape[-1])
         information = rows.T @ rows
@@ -208,7 +208,7 @@ class Unexplained:
         self._squares = np.sum(residuals**2) - self._gradient @ self._solve(self._gradient)
         self._free = np.count_nonzero(residuals) - np.trace(self._solve(information))
 
-    def plainest(self, candidate: Candidate) -> tuple[float, int, np.ndarray]:
+    def strongest(self, candidate: Candidate) -> tuple[float, int, np.ndarray]:
         """A fault's share of the unexplained squares; 0 if it is not significant.
 
         Also returns the row, among the candidate's, at which it begins, and its parameters (c,).
@@ -230,7 +230,7 @@ class Unexplained:
         found = (np.linalg.pinv(information, hermitian=True) @ gradient[..., None])[..., 0]
         gains = np.sum(found * gradient, axis=1)
         best, count = int(gains.argmax()), columns.shape[-1]
-        gain, free = gains[best], (self._free - count) / self._alike
+        gain, free = gains[best], (self._free - count) / self._redundancy
         ratio = gain / count / (self._squares - gain) * free
         significant = fdtrc(count, free, ratio) * len(rows) < CHANCE
         return gain / self._squares if significant else 0.0, int(rows[best]), found[best]
