@@ -79,7 +79,7 @@ def test_an_empty_folder_will_do_and_what_the_disk_gives_back_is_compared(tmp_pa
         assert content(out) == TWO
     assert {path.name for path in tmp_path.iterdir()} == {"empty", "a"}
     monkeypatch.setattr(Path, "read_bytes", lambda path: b"other")
-    with pytest.raises(InvalidFile, match=r"one\.txt: the disk gives back something else"):
+    with pytest.raises(InvalidFile, match=r"one\.txt: the disk returned other content"):
         write_new(tmp_path / "out", TWO)
 
 
