@@ -13,7 +13,7 @@ class RecalibError(Exception):
 
 
 class UnknownName(RecalibError):
-    """An unknown name; the message suggests the nearest valid one."""
+    """An unknown name; the message suggests the most similar valid name."""
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)
@@ -21,7 +21,7 @@ class UnknownName(RecalibError):
 
 
 class InvalidQuantity(RecalibError):
-    """A length or an angle that is not a number with a unit."""
+    """A text that is not a number with a valid unit of length or angle."""
 
     def __init__(self, text: object, units: Iterable[str]):
         self.text, self.units = text, sorted(units)
@@ -107,7 +107,7 @@ class InvalidFile(RecalibError):
 
 
 class OtherRobot(RecalibError):
-    """A file that was learned on another robot.
+    """A file with results that were learned on another robot.
 
     Attributes: path, and differences: one sentence for each difference between the robots.
     """

@@ -43,7 +43,7 @@ def archive_of(header: Mapping[str, Any], groups: Arrays) -> bytes:
     arrays = flat(groups)
     sealed = {**header, "sha256": _digest(header, arrays)}
     content, members = io.BytesIO(), {"header": np.array(json.dumps(sealed)), **arrays}
-    np.savez(content, **members)  # type: ignore[arg-type]  # mypy takes a member for an option
+    np.savez(content, **members)  # type: ignore[arg-type]  # mypy mistakes a member for an option
     return content.getvalue()
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 
 def monomials(points: np.ndarray, degree: int) -> np.ndarray:
-    """The products (..., F) of up to `degree` coordinates of points (..., d), by their degrees."""
+    """The products (..., F) of up to `degree` coordinates of points (..., d), sorted by degree."""
     shorter, last = factors(points.shape[-1], degree)
     products = np.ones((*points.shape[:-1], len(last)))
     for _ in range(degree):  # each pass completes the monomials of one more degree

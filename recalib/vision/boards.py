@@ -200,7 +200,7 @@ def _board_of_kalibr(path: str | PathLike[str]) -> Board:
             raise InvalidFile(path, "its circles are symmetric; expected: an asymmetric grid")
         down, across = float(given["rowSpacingMeters"]), float(given["colSpacingMeters"])
         if down != across:
-            raise InvalidFile(path, f"its fields are {down} x {across} m; expected: squares")
+            raise InvalidFile(path, f"its squares are {down} x {across} m; expected: equal sides")
         return Board(kind, columns + 1, rows + 1, down)  # Kalibr counts corners
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None

@@ -32,7 +32,7 @@ class Displaced(NamedTuple):
 
 
 def exchanged(geometry: Calibration, observations: Observations) -> Exchanged | None:
-    """Outliers whose measurements fit the joints of other outliers; None if there are none."""
+    """Outliers whose measurements fit the joints of other outliers; None if no such rows exist."""
     rows = _outliers(geometry, observations)[:MOST]
     if len(rows) < 2:
         return None

@@ -48,7 +48,7 @@ def returning(model: ErrorModel, observations: Observations) -> np.ndarray:
 
 
 class Scale(NamedTuple):
-    """The scale of something.
+    """The estimated scale of a board, of a distance, or of positions.
 
     Attributes:
         factor: the estimated size over the stated one.
