@@ -1,4 +1,4 @@
-"""The public names and their modules; `recalib/__init__.py` imports a name when it is asked for."""
+"""The public names and their modules; `recalib/__init__.py` imports each at its first use."""
 
 from .damaged.bending import LinkBend as LinkBend
 from .damaged.bending import LinkTwist as LinkTwist

@@ -1,4 +1,4 @@
-"""`python -m recalib`, as `recalib`."""
+"""Entry point of `python -m recalib`, the same as the command `recalib`."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Arrays that callers give: of the right shape, finite, and with rotations that are rotations."""
+"""Checks of arrays from callers: their shapes, finite numbers, and valid rotations."""
 
 from collections.abc import Sequence
 
@@ -8,14 +8,14 @@ from numpy.typing import ArrayLike
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import Quantity
 
-SKEW = 1e-3  # of a rotation's axes: more than rounding
-Shape = Sequence[int | str]  # sizes, or letters for any size
+SKEW = 1e-3  # tolerance on the orthonormality of a rotation: more than rounding
+Shape = Sequence[int | str]  # sizes, or letters that stand for any size
 
 
 def array_of(name: str, given: ArrayLike, *shapes: Shape) -> np.ndarray:
-    """An array of finite numbers of one of the shapes, such as ("n", 3).
+    """The given values as an array of finite floats that has one of the shapes, such as ("n", 3).
 
-    Raises InvalidSetting, which names what was given and what was expected.
+    Raises InvalidSetting, with the value found and the values expected.
     """
     texts = (f"({', '.join(map(str, shape))}{',' * (len(shape) == 1)})" for shape in shapes)
     valid = f"an array of finite numbers of shape {' or '.join(texts)}"
@@ -24,18 +24,18 @@ def array_of(name: str, given: ArrayLike, *shapes: Shape) -> np.ndarray:
     except ValueError:  # rows of different lengths
         array = np.array(None)
     if np.ma.is_masked(given):
-        raise InvalidSetting(name, "masked in places", valid)
+        raise InvalidSetting(name, "a masked array", valid)
     if array.dtype.kind not in "iuf":
         raise InvalidSetting(name, type(given).__name__, valid)
     if not any(_fits(array, shape) for shape in shapes):
         raise InvalidSetting(name, f"of shape {array.shape}", valid)
     if not np.isfinite(array).all():
-        raise InvalidSetting(name, "NaN or infinity in places", valid)
+        raise InvalidSetting(name, "an array with NaN or infinity", valid)
     return array.astype(float)
 
 
 def ending(name: str, given: ArrayLike, *last: int) -> np.ndarray:
-    """An array with these last axes, after any others. Raises InvalidSetting."""
+    """The given values as an array whose last axes have these sizes. Raises InvalidSetting."""
     array = np.asarray(given)
     if array.shape[-len(last) :] != last:
         axes = ", ".join(map(str, ("...", *last)))
@@ -44,17 +44,17 @@ def ending(name: str, given: ArrayLike, *last: int) -> np.ndarray:
 
 
 def check_rotations(name: str, poses: np.ndarray) -> None:
-    """Raise InvalidSetting unless poses (..., 4, 4) have rotations, and 0, 0, 0, 1 below."""
+    """Raise InvalidSetting unless all matrices (..., 4, 4) are poses."""
     turns, rows = poses[..., :3, :3], poses[..., 3, :]
     skew = np.abs(turns @ turns.swapaxes(-1, -2) - np.eye(3)).max(axis=(-1, -2))
     good = (skew < SKEW) & (np.linalg.det(turns) > 0)
     if not (good & (np.abs(rows - [0, 0, 0, 1]).max(axis=-1) < SKEW)).all():
-        valid = "poses: a rotation (3, 3), a position (3,) in m, and 0, 0, 0, 1 below"
-        raise InvalidSetting(name, "matrices of something else", valid)
+        valid = "poses: a rotation (3, 3), a position (3,) in m, and the last row 0, 0, 0, 1"
+        raise InvalidSetting(name, "matrices that are not poses", valid)
 
 
 def check_size(name: str, numbers: np.ndarray, quantity: Quantity) -> None:
-    """Raise InvalidSetting if numbers in SI units are too large for a quantity of an arm."""
+    """Raise InvalidSetting if numbers in SI units exceed the largest plausible value for an arm."""
     if (largest := np.abs(numbers).max(initial=0)) > quantity.farthest:
         unit = next(unit for unit, size in quantity.units.items() if size == 1)
         valid = f"up to {quantity.write(quantity.farthest)}; is its unit right?"

@@ -1,4 +1,4 @@
-"""The exceptions of this library: attributes hold the facts, messages say what was expected."""
+"""The exceptions of this library: attributes hold the facts, messages state the expected value."""
 
 from collections.abc import Iterable
 from numbers import Integral
@@ -13,7 +13,7 @@ class RecalibError(Exception):
 
 
 class UnknownName(RecalibError):
-    """An unknown name; the message suggests the nearest valid one."""
+    """An unknown name; the message suggests the most similar valid name."""
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)
@@ -21,7 +21,7 @@ class UnknownName(RecalibError):
 
 
 class InvalidQuantity(RecalibError):
-    """A length or an angle that is not a number with a unit."""
+    """A text that is not a number with a valid unit of length or angle."""
 
     def __init__(self, text: object, units: Iterable[str]):
         self.text, self.units = text, sorted(units)
@@ -32,7 +32,7 @@ class InvalidQuantity(RecalibError):
 
 
 class InvalidSetting(RecalibError):
-    """A setting with an invalid value; the message has the valid ones."""
+    """A setting with an invalid value; the message states the valid values."""
 
     def __init__(self, key: str, value: object, valid: str):
         self.key, self.value, self.valid = key, value, valid
@@ -41,7 +41,7 @@ class InvalidSetting(RecalibError):
 
 
 def check_name(kind: str, name: str, valid: Iterable[str]) -> None:
-    """Raise UnknownName unless a name is among the valid ones."""
+    """Raise UnknownName if a name is not valid."""
     if name not in (names := [*valid]):
         raise UnknownName(kind, name, names)
 
@@ -54,7 +54,7 @@ def check_kind(name: str, given: object, *kinds: type) -> None:
 
 
 def check_runs(runs: object) -> None:
-    """Raise InvalidSetting unless it is a number of runs."""
+    """Raise InvalidSetting if the number of runs is not a positive integer."""
     if not isinstance(runs, Integral) or int(runs) < 1:
         raise InvalidSetting("runs", runs, "a whole number, at least 1")
 
@@ -63,9 +63,9 @@ class BadMeasurement(RecalibError):
     """An invalid measurement.
 
     Attributes:
-        which: name of the measurement.
-        measured: its numbers.
-        valid: what was expected.
+        which: the name of the measurement.
+        measured: the measured numbers.
+        valid: a description of the expected values.
     """
 
     def __init__(self, which: str, measured: Iterable[float], valid: str):
@@ -75,16 +75,16 @@ class BadMeasurement(RecalibError):
 
 
 class UnsuitableRobot(RecalibError):
-    """A robot that is not a serial arm of joints that turn or slide about or along one axis."""
+    """A robot that is not a serial arm with revolute or prismatic joints only."""
 
 
 class Unreachable(RecalibError):
     """A pose command (4, 4) [m] that the nominal controller cannot execute.
 
     Attributes:
-        position, rotation: (3,) m and (3, 3) of the command in the base frame.
-        residual: of the best joint angles found, the largest of its numbers in m and rad.
-        reason: why.
+        position, rotation: (3,) m and (3, 3), the command in the base frame.
+        residual: the largest component [m or rad] of the pose error at the best joint angles found.
+        reason: why the command cannot be executed.
     """
 
     def __init__(self, pose: Any, residual: float, reason: str):
@@ -107,9 +107,9 @@ class InvalidFile(RecalibError):
 
 
 class OtherRobot(RecalibError):
-    """A file that was learned on another robot.
+    """A file with results that were learned on another robot.
 
-    Attributes: path, and differences, a sentence for each.
+    Attributes: path, and differences: one sentence for each difference between the robots.
     """
 
     def __init__(self, path: str | PathLike[str], differences: Iterable[str]):

@@ -1,18 +1,18 @@
-"""Unknown names: a suggestion, the valid names, and lists of names in a sentence."""
+"""Suggestions for misspelt names, and lists of names in a sentence."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches
 from itertools import takewhile
 
-MOST, SOME = 10, 3  # names in a sentence: of all that are valid, or as examples
-ALIKE = 0.75  # difflib's ratio: two letters of four exchanged, or one of two left out
+MOST, SOME = 10, 3  # the most names to list in full; the number of examples from a longer list
+ALIKE = 0.75  # difflib's ratio, which tolerates e.g. two swapped letters in a word of four
 
 
 def nearest(word: str, valid: Iterable[str]) -> str | None:
-    """The valid word that is the most alike, if one is near; capitals do not count."""
+    """The valid word most similar to `word`, regardless of case; None if none is similar."""
     words, word = {other.casefold(): other for other in valid}, word.casefold()
     ending = _common_ending(words) if len(words) > 1 else ""
-    if ending and word.endswith(ending):  # as .urdf: it does not make names alike
+    if ending and word.endswith(ending):  # a shared suffix such as .urdf is no similarity
         words = {other.removesuffix(ending): name for other, name in words.items()}
         word = word.removesuffix(ending)
     found = get_close_matches(word, words, n=1, cutoff=ALIKE)
@@ -25,7 +25,7 @@ def _common_ending(words: Iterable[str]) -> str:
 
 
 def instead(name: str, valid: Iterable[str]) -> str:
-    """What to use in the place of a name: the nearest one, the valid ones, or some of many."""
+    """Advice in place of an unknown name: a similar name, and the valid names or examples."""
     valid = list(valid)
     meant = f"did you mean {other}?" if (other := nearest(name, valid)) else ""
     if len(valid) > MOST:
@@ -34,11 +34,11 @@ def instead(name: str, valid: Iterable[str]) -> str:
 
 
 def counted(number: int, noun: str) -> str:
-    """A number and what it counts: 1 row, 2 rows."""
+    """A number with its noun in the singular or plural: 1 row, 2 rows."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def listed(words: Iterable[str], last: str) -> str:
-    """Words with commas, and `last` before the last."""
+    """The words as a list with commas, and the conjunction `last` before the last word."""
     *rest, end = list(words) or [""]
     return f"{', '.join(rest)} {last} {end}" if rest else end

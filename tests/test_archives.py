@@ -51,5 +51,5 @@ def test_a_file_that_is_not_there_is_refused_with_the_reason(tmp_path, path):
     with pytest.raises(InvalidFile, match="Is a directory"):
         read(tmp_path)
     write_archive(path, {"format": KIND[0], "version": KIND[1]}, {"a": {"b": np.array([np.nan])}})
-    with pytest.raises(InvalidFile, match=r"a\.npz: it holds numbers that are not finite"):
+    with pytest.raises(InvalidFile, match=r"a\.npz: it contains numbers that are not finite"):
         read(path)

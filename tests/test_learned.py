@@ -120,9 +120,8 @@ def test_another_name_is_no_other_robot_but_a_newer_format_is_refused(robot, tmp
     arrays = dict(np.load(path))
     header = json.loads(str(arrays.pop("header"))) | {"version": VERSION + 1}
     np.savez(path, header=json.dumps(header), **arrays)
-    with pytest.raises(
-        InvalidFile, match=rf"format \('recalib learner', {VERSION + 1}\); expected: .* {VERSION}\)"
-    ):
+    found = rf"format is \('recalib learner', {VERSION + 1}\)"
+    with pytest.raises(InvalidFile, match=rf"{found}; expected: .* {VERSION}\)"):
         load(path, robot)
 
 

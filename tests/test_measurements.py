@@ -139,7 +139,7 @@ def test_an_identification_that_is_led_astray_names_a_measurement(table, robot):
     astray = np.zeros_like(model.deviations)
     astray[9] = 2 * np.pi
     start = replace(identify(model, observations), parameters=astray)
-    with pytest.raises(BadMeasurement, match="measurement 0 .*: what the same arm explains"):
+    with pytest.raises(BadMeasurement, match="measurement 0 .*: a measurement of the same arm"):
         identify(model, observations, start)
 
 

@@ -1,4 +1,4 @@
-"""Files that are read and written whole or not at all; quantities with units."""
+"""Files that are read and written completely or not at all; quantities with units."""
 
 import lazy_loader
 

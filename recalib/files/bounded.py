@@ -1,6 +1,6 @@
 """Bounded quantities as types of fields: `shorten: Amount` reads '4 cm' and refuses '200 m'.
 
-A type is a float in SI units with a note. Pydantic reads the note; without it, a float is a float.
+A type is a float in SI units with an annotation, which only Pydantic reads.
 """
 
 import math
@@ -20,11 +20,11 @@ class Bounded:
     """A quantity with bounds.
 
     Attributes:
-        quantity: its kind; None: a bare number.
+        quantity: the kind of quantity; None for a bare number.
         low, high: the bounds, in SI units.
-        bounds, example: in words.
+        bounds, example: the bounds and an example, in words.
         above: whether the lower bound itself is excluded.
-        direction: whether it is a direction and not a size.
+        direction: whether the quantity is a direction and not a size.
     """
 
     quantity: Quantity | None
@@ -37,18 +37,18 @@ class Bounded:
 
     @property
     def expected(self) -> str:
-        """What is valid, in words."""
+        """The valid values, in words."""
         if self.quantity is None:
             return f"a number {self.bounds}, such as {self.example}"
         units = ", ".join(self.quantity.units)
         return f"{self.quantity.name} {self.bounds}, such as '{self.example}' ({units})"
 
     def holds(self, value: float) -> bool:
-        """Whether a number in SI units lies within the bounds."""
+        """Whether a number in SI units is within the bounds."""
         return self.low <= value <= self.high and not (self.above and value == self.low)
 
     def check(self, name: str, value: float) -> None:
-        """Raise InvalidSetting unless it is a number in SI units within the bounds."""
+        """Raise InvalidSetting unless a value is a number in SI units within the bounds."""
         if isinstance(value, Real) and self.holds(float(value)):
             return
         if self.quantity is None:
@@ -57,7 +57,7 @@ class Bounded:
         raise InvalidSetting(name, value, f"{self.quantity.name} {self.bounds}, in {unit}")
 
     def _read(self, value: object) -> float:
-        """The number in SI units that a value means; NaN if it means none."""
+        """The number in SI units that a value denotes; NaN if it is invalid."""
         if self.quantity is None:
             number = isinstance(value, int | float) and not isinstance(value, bool)
             return float(value) if number else math.nan  # type: ignore[arg-type]
@@ -96,11 +96,11 @@ SignedTurn = Annotated[float, Bounded(ANGLE, -3.15, 3.15, "from -180 to 180 deg"
 Direction = Annotated[
     float, Bounded(ANGLE, -6.3, 6.3, "from -360 to 360 deg", "90 deg", direction=True)
 ]
-# standard deviations: with more, no arm and no instrument would be of use
+# standard deviations: with larger ones, an arm or an instrument would be useless
 Noise = Annotated[float, Bounded(LENGTH, 0, 0.1, "from 0 to 10 cm", "0.2 mm")]
 NoiseOfTurn = Annotated[float, Bounded(ANGLE, 0, 0.175, "from 0 to 10 deg", "0.02 deg")]
 Compliance = Annotated[float, Bounded(COMPLIANCE, 0, 1, "from 0 to 1 rad/Nm", "0.0002 rad/Nm")]
 Share = Annotated[float, Bounded(None, 0, 1, "from 0 to 1", "0.1")]
-# of a workspace: in units of a smaller one, damages would be out of all proportion
+# of a workspace: a smaller one would be out of proportion to any damage
 Side = Annotated[float, Bounded(LENGTH, 1e-3, 100, "from 1 mm to 100 m", "40 cm")]
 Range = Annotated[float, Bounded(ANGLE, 1e-3, 3.1416, "from 0.1 to 180 deg", "40 deg")]

@@ -1,4 +1,4 @@
-"""The output of a command: new, complete at once, and read back before it appears."""
+"""Output of commands: files that are new, appear complete, and are verified before they appear."""
 
 import csv
 import io
@@ -17,28 +17,28 @@ from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.storage import IN_THE_MAKING, read_xml
 
 AnyPath = str | os.PathLike[str]
-HIDDEN = ".recalib-"  # how the folder begins in which outputs are made; a process's number follows
+HIDDEN = ".recalib-"  # the prefix of temporary folders, before the process's number
 
 
 def check_new(path: AnyPath, folder: bool = False) -> None:
-    """Raise unless `write_new` may put a file, or a folder, at `path`.
+    """Raise an exception if `write_new` cannot write a file, or a folder, at `path`.
 
-    Raises InvalidSetting (a name that no file can have), InvalidFile (the path exists, or nothing
-    can be written there), OSError (a name that is too long).
+    Raises InvalidSetting (an invalid name), InvalidFile (the path exists, or its folder is not
+    writable), OSError (a name that is too long).
     """
     if not os.fspath(path) or "\0" in os.fspath(path):
         raise InvalidSetting("--out", os.fspath(path), "the name of a file or folder")
     if is_taken(path, folder):
-        raise InvalidFile(path, "it exists already, and nothing is replaced; try: another --out")
+        raise InvalidFile(path, "it already exists and is not replaced; try: another --out")
     home = _home(path)
     if not home.is_dir() or not os.access(home, os.W_OK):
-        raise InvalidFile(path, f"nothing can be written in {home}; try: another --out")
+        raise InvalidFile(path, f"the folder {home} is not writable; try: another --out")
 
 
 def is_taken(path: AnyPath, folder: bool = False) -> bool:
-    """Whether something exists that a file, or a folder, may not replace.
+    """Whether something exists at `path` that a file, or a folder, must not replace.
 
-    A folder may replace an empty one, but not a link, another disk, or the working folder.
+    A folder may replace an empty folder, but not a link, a mount point, or the working folder.
     """
     path = Path(path)
     if not folder or path.is_symlink() or not path.is_dir() or os.path.ismount(path):
@@ -47,12 +47,12 @@ def is_taken(path: AnyPath, folder: bool = False) -> bool:
 
 
 def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str = "") -> None:
-    """Write a new file, or a new folder of files by their names, with missing parents.
+    """Write a new file, or a new folder of files by their names, and any missing parent folders.
 
-    A single file has the format of the suffix, whatever it is called.
+    `suffix` determines the format of a single file, whatever its name is.
 
-    Everything is read back by a parser of its format before it appears. It appears at once and
-    replaces nothing. What a killed process left is removed by the next one that writes there.
+    A parser of its format reads each file back. Then everything appears at once and replaces
+    nothing. Remains of a killed process are removed by the next process that writes there.
 
     Raises as `check_new`, and InvalidFile: a file that cannot be written or read back.
     """
@@ -83,14 +83,14 @@ def _home(path: AnyPath) -> Path:
 
 
 def _remove_leftovers(home: Path) -> None:
-    """Remove folders of processes that have ended."""
+    """Remove the temporary folders of processes that have ended."""
     for left in home.glob(f"{HIDDEN}*{IN_THE_MAKING}"):
         number = left.name.removeprefix(HIDDEN).partition("-")[0]
         try:
             os.kill(int(number), 0)
         except (ProcessLookupError, ValueError):
             shutil.rmtree(left, ignore_errors=True)
-        except OSError:  # a process of somebody else
+        except OSError:  # another user's process
             pass
 
 
@@ -102,11 +102,11 @@ def _write(made: Path, content: bytes, path: AnyPath, suffix: str) -> None:
     except OSError as error:
         raise InvalidFile(path, f"it cannot be written: {error.strerror}") from None
     if not same:
-        raise InvalidFile(path, "the disk gives back something else than was written")
+        raise InvalidFile(path, "the disk returned other content than was written")
     try:
         READERS.get(suffix, bytes.decode)(content)
-    except Exception as error:  # whatever a parser finds wrong
-        reason = f"what was computed for it cannot be read back: {error}; please report this"
+    except Exception as error:  # parsers raise all kinds of exceptions
+        reason = f"its computed content cannot be read back: {error}; please report this"
         raise InvalidFile(path, reason) from None
 
 
@@ -134,7 +134,7 @@ def _read_ending(ending: bytes) -> Callable[[bytes], None]:
     return read
 
 
-# A newcomer's format needs a line here; any other file has to be text in UTF-8.
+# A new format needs a line here; a file of any other format must be text in UTF-8.
 READERS: Mapping[str, Callable[[bytes], object]] = {
     ".csv": _read_csv,
     ".json": json.loads,

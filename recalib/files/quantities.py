@@ -1,4 +1,4 @@
-"""Lengths and angles as one writes them: '4 cm', '-3 deg'."""
+"""Quantities as text with a unit, such as '4 cm' and '-3 deg'."""
 
 import math
 import re
@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from recalib.errors import InvalidQuantity, InvalidSetting
 
 _TEXT = re.compile(r"\s*([-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)\s*([a-zA-Z/]+)\s*", re.ASCII)
-_DIGITS = 15, 16, 17  # 15 hide rounding, 17 give each float back
+_DIGITS = 15, 16, 17  # 15 digits hide rounding, 17 reproduce each float
 
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """A kind of quantity, and how it is read and written.
+    """A kind of quantity, which reads and writes text.
 
     Attributes:
-        name: with its article.
-        units: the size of each in SI units; one of size 1 is among them.
-        farthest: the largest number of SI units in tables and descriptions of an arm.
+        name: the name with its article.
+        units: the size of each unit in SI units; one unit has the size 1.
+        farthest: the largest valid number of SI units in tables and descriptions of an arm.
     """
 
     name: str
@@ -26,14 +26,14 @@ class Quantity:
     farthest: float = math.inf
 
     def read(self, text: object) -> float:
-        """The number of SI units that the text means. Raises InvalidQuantity."""
+        """The number of SI units in a text. Raises InvalidQuantity."""
         match = _TEXT.fullmatch(text) if isinstance(text, str) else None
         if match is None or match[2] not in self.units or math.isinf(float(match[1])):
             raise InvalidQuantity(text, self.units)
         return float(match[1]) * self.units[match[2]]
 
     def value_of(self, key: str, text: object) -> float:
-        """The same for a key or an option, which the message names. Raises InvalidSetting."""
+        """The same, for a key or an option that the message names. Raises InvalidSetting."""
         try:
             return self.read(text)
         except InvalidQuantity:
@@ -41,7 +41,7 @@ class Quantity:
             raise InvalidSetting(key, text, valid) from None
 
     def write(self, value: float) -> str:
-        """A short text that reads as just this number of SI units, which must be finite."""
+        """The shortest text that reads as exactly this finite number of SI units."""
         texts = (
             f"{float(f'{value / size:.{digits}g}')!r}".removesuffix(".0") + f" {unit}"
             for unit, size in self.units.items()

@@ -1,4 +1,4 @@
-"""Files that are read whole or refused, and files that appear whole or not at all."""
+"""Files that are read completely or refused, and files that appear complete or not at all."""
 
 import codecs
 import hashlib
@@ -16,14 +16,14 @@ from recalib.errors import InvalidFile, InvalidSetting
 
 IN_THE_MAKING = ".part"
 MOST_TOML = 16_000  # bytes: tomllib's memory grows with the square of the parts of a key
-# The encoding of XML: what is declared, or what its first bytes mark.
+# The encoding of XML is declared, or its first bytes mark it.
 _DECLARED = re.compile(rb"""\s*<\?xml[^>]*?\sencoding\s*=\s*["']([\w.-]+)["']""")
 _MARKED = dict.fromkeys((codecs.BOM_UTF16_LE, b"<\0"), "utf-16-le")
 _MARKED |= dict.fromkeys((codecs.BOM_UTF16_BE, b"\0<"), "utf-16-be")
 
 
 def path_of(given: str | os.PathLike[str]) -> Path:
-    """The path that a caller gives. Raises InvalidSetting: something else, or an empty name."""
+    """The given name as a path. Raises InvalidSetting: not a path, or an empty name."""
     if not isinstance(given, str | os.PathLike) or not os.fspath(given):
         raise InvalidSetting("path", given, "the name of a file or folder")
     return Path(given)
@@ -32,7 +32,7 @@ def path_of(given: str | os.PathLike[str]) -> Path:
 def read_file(path: str | os.PathLike[str], most: int) -> bytes:
     """The bytes of a file of at most `most` bytes.
 
-    Raises InvalidFile: no such file, one that cannot be read or has no end, or a larger one.
+    Raises InvalidFile: the file is missing, unreadable, too large, or no regular file.
     """
     path = path_of(path)
     try:
@@ -52,32 +52,32 @@ def read_file(path: str | os.PathLike[str], most: int) -> bytes:
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """The content of the TOML at `path`. Raises InvalidFile, with the line of a mistake."""
+    """The content of the TOML file at `path`. Raises InvalidFile, with the line of a mistake."""
     try:
         parts = tomllib.loads(read_file(path, MOST_TOML).decode("utf-8"))
-        repr(parts)  # as a message would show them: parts of parts may be too many
+        repr(parts)  # as in a message: raises RecursionError if tables are nested too deeply
         return parts
     except ValueError as error:  # not UTF-8, or not TOML
         raise InvalidFile(path, f"it is not TOML: {error}") from None
     except RecursionError:
-        raise InvalidFile(path, "its parts are nested too deep") from None
+        raise InvalidFile(path, "its tables are nested too deeply") from None
 
 
 def encoding(source: bytes) -> str:
-    """The encoding of XML: what its first bytes mark or declare, or else UTF-8."""
+    """The encoding of XML: declared, or marked by its first bytes, or else UTF-8."""
     if declared := _DECLARED.match(source):
         return declared[1].decode("ascii")
     return _MARKED.get(source[:2], "utf-8")
 
 
 def read_xml(source: bytes, path: Path) -> ElementTree.Element:
-    """The root of XML; its path is for messages.
+    """The root element of XML; `path` is for messages.
 
-    Raises InvalidFile: not XML, with line and column; or in another encoding than it declares.
+    Raises InvalidFile: not XML, with line and column; or not in the declared encoding.
     """
     try:
         text = source.decode(encoding(source))
-        if text.encode(encoding(source)) != source:  # a corrected one could not keep its bytes
+        if text.encode(encoding(source)) != source:  # a corrected URDF must keep all other bytes
             raise UnicodeError
         return ElementTree.fromstring(text)
     except (LookupError, UnicodeError):
@@ -89,7 +89,7 @@ def read_xml(source: bytes, path: Path) -> ElementTree.Element:
 
 
 def digest(content: bytes) -> str:
-    """The first sixteen digits of the SHA-256 of a file's content."""
+    """The first sixteen hexadecimal digits of the SHA-256 of a file's content."""
     return hashlib.sha256(content).hexdigest()[:16]
 
 
@@ -97,7 +97,7 @@ def digest(content: bytes) -> str:
 def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path in the folder of `path`, with the same suffix.
 
-    It replaces `path` when the block ends without an error.
+    The file there replaces `path` when the block ends without an error.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -110,5 +110,5 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def is_temporary(name: str) -> bool:
-    """Whether a file of this name was not complete when its process was killed."""
+    """Whether a file of this name is an incomplete file of a killed process."""
     return name.startswith(".") and IN_THE_MAKING in name

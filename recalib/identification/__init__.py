@@ -1,4 +1,4 @@
-"""Identification of an arm from measurements: the basis of today's model-based learners."""
+"""Identification of an arm from measurements, on which the model-based learners are built."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""A calibrated arm: its forward kinematics, and how it is identified."""
+"""A calibrated arm: its forward kinematics, and its identification from measurements."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,22 +19,22 @@ from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 from recalib.numerics.regression import Process, is_time_to_search
 
-FEWEST = 16  # measurements to see a pattern in residuals
-MOST = 2000  # to learn a pattern from: memory grows with their square, time with their cube
-# A gain in log evidence, over the root of the number of further parameters, that is no chance: idle
-# ones gain, too, since the deviations of their prior are fitted to the data.
+FEWEST = 16  # the least number of measurements to find a pattern in their residuals
+MOST = 2000  # measurements for the process: memory grows with their square, time with their cube
+# The least significant gain in log evidence, over the root of the number of added parameters. Even
+# useless parameters gain some, since the deviations of their prior are fitted to the data.
 CONVINCING = 2.5
 
 
 @dataclass(frozen=True)
 class Calibration:
-    """An error model with its parameters identified, and a Gaussian process of its residuals.
+    """An error model with identified parameters, and a Gaussian process of its residuals.
 
     Attributes:
         model: the error model.
-        estimate: of its parameters.
-        pattern: from joint angles [rad] to residuals over the estimate's noise; None where these
-            are noise.
+        estimate: the estimate of the model's parameters.
+        pattern: the process, from joint angles [rad] to residuals over the noise of the estimate;
+            None if the residuals are noise.
     """
 
     model: ErrorModel
@@ -42,27 +42,27 @@ class Calibration:
     pattern: Process | None = None
 
     def forward(self, joints: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m].
+        """Poses (n, 4, 4) [m] of the tool in the base frame, at joints (n, joints) [rad, m].
 
-        The controller assumes joints (n, joints) [rad, m]. If a frame was unknown, the arm's own
-        base or tool is nominal. Raises InvalidSetting: another shape, NaN.
+        The joints are those that the controller reports. If a frame was unknown, the arm's own base
+        or tool stays nominal. Raises InvalidSetting: another shape, NaN.
         """
         angles = array_of("joints", joints, ("n", self._arm.model.nv))
         return self._moved(self._arm.forward(self._standing(angles)), angles)
 
     def forward_and_jacobian(self, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `forward`, and Jacobians (n, 6, joints) of the arm standing there.
+        """Poses (n, 4, 4) as in `forward`, and Jacobians (n, 6, joints) at the actual joint angles.
 
-        They leave out that joint errors and the pattern change with the joints, too: slowly.
+        The Jacobians neglect that joint errors and the pattern vary (slowly) with the joints.
         """
         poses, jacobians = self._arm.forward_and_jacobian(self._standing(joints))
         return self._moved(poses, joints), jacobians
 
     def predict(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
-        """Predicted measurements: poses (n, 4, 4) of targets in the instrument's frame [m].
+        """Predicted measurements: poses (n, 4, 4) [m] of targets in the instrument's frame.
 
-        Joints are as for `forward`, targets (n,) the numbers of the sights; default: the first.
-        Raises InvalidSetting: another shape, NaN.
+        Joints are as in `forward`; targets (n,) are the numbers of the sights, by default the
+        first. Raises InvalidSetting: another shape, NaN.
         """
         angles = array_of("joints", joints, ("n", self._arm.model.nv))
         poses = self.model.predict(self.estimate.parameters, angles, targets)
@@ -71,7 +71,7 @@ class Calibration:
     def predict_and_jacobian(
         self, joints: np.ndarray, targets: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `predict`, and Jacobians (n, 6, joints) as `forward_and_jacobian`."""
+        """Poses as in `predict`, and Jacobians (n, 6, joints) as in `forward_and_jacobian`."""
         standing = self._standing(joints)
         jacobians = np.empty((len(joints), 6, joints.shape[1]))
         poses = np.empty((len(joints), 4, 4))
@@ -83,10 +83,10 @@ class Calibration:
     def position_covariances(
         self, joints: np.ndarray, shifted: bool, targets: np.ndarray | None = None
     ) -> np.ndarray:
-        """Covariances (n, 3, 3) [m^2] of predicted positions; joints and targets as of `predict`.
+        """Covariances (n, 3, 3) [m^2] of predicted positions; arguments as in `predict`.
 
-        If shifted, one shift and turn of instrument and target, common to all rows, is removed: the
-        range of a camera is only as accurate as its board and lens.
+        If `shifted`, the covariance of one shift and turn of instrument and target, common to all
+        rows, is removed: the range of a camera is only as accurate as its board and lens.
         """
         model, estimate = self.model, self.estimate
         _, jacobians = model.linearise(estimate.parameters, joints, targets)
@@ -107,7 +107,7 @@ class Calibration:
         return np.sqrt(np.einsum("ni,nij,nj->n", lines, spread, lines))
 
     def residuals(self, observations: Observations) -> np.ndarray:
-        """Measured minus predicted: (n, 3) m, or (n, 6) m and rad, along the instrument's axes."""
+        """Residuals, measured minus predicted: (n, 3) m or (n, 6) m and rad, instrument's axes."""
         predicted = self.predict(observations.joints, observations.targets)
         residuals = displacements(predicted, observations.reached(self.frames.sockets))
         if observations.optics is None:
@@ -117,14 +117,14 @@ class Calibration:
 
     @cached_property
     def frames(self) -> Frames:
-        """The poses of the instrument and of the targets."""
+        """The identified poses of the instrument and of the targets."""
         return self.model.found(self.estimate.parameters)
 
     def axes(self, targets: np.ndarray) -> np.ndarray:
         """Rotations (n, 3, 3) from the first instrument's axes to each sight's instrument."""
         turns = self.frames.bases[:, :3, :3]
         between = turns @ turns[0].T
-        between[0] = np.eye(3)  # but for rounding
+        between[0] = np.eye(3)  # exactly, without rounding
         return between[self.model.frames.sights[targets, 0]]
 
     @cached_property
@@ -133,7 +133,7 @@ class Calibration:
 
     @cached_property
     def _arms_to_targets(self) -> list[Arm]:
-        """The arm to the target of each sight: to make one takes longer than to use it."""
+        """The arm to the target of each sight, cached: an arm is slower to make than to use."""
         numbers = range(len(self.model.frames.sights))
         return [self.model.arm(self.estimate.parameters, sight) for sight in numbers]
 
@@ -141,7 +141,7 @@ class Calibration:
         return self.model.standing(self.estimate.parameters, joints)
 
     def _moved(self, poses: np.ndarray, joints: np.ndarray) -> np.ndarray:
-        """By the pattern of the first target, as the instrument would see it."""
+        """The tool's poses, corrected by the pattern of the first target in the instrument."""
         if self.pattern is None:
             return poses
         base, target = self.frames.base, self.frames.targets[0]
@@ -151,21 +151,21 @@ class Calibration:
     def _shifted(
         self, poses: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
     ) -> np.ndarray:
-        """By the pattern, which has the axes of the first instrument."""
+        """The poses, corrected by the pattern, which is along the axes of the first instrument."""
         if self.pattern is None:
             return poses
-        by = self.pattern.predict(joints) * np.repeat(self.estimate.noise, 3)
+        shifts = self.pattern.predict(joints) * np.repeat(self.estimate.noise, 3)
         if targets is not None and len(self.model.frames.further):
-            by = turned(self.axes(targets), by)
+            shifts = turned(self.axes(targets), shifts)
         moved = poses.copy()
-        moved[:, :3, 3] += by[:, :3]
-        if by.shape[1] == 6:
-            for pose, turn in zip(moved, by[:, 3:], strict=True):
+        moved[:, :3, 3] += shifts[:, :3]
+        if shifts.shape[1] == 6:
+            for pose, turn in zip(moved, shifts[:, 3:], strict=True):
                 pose[:3, :3] = pin.exp3(turn) @ pose[:3, :3]
         return moved
 
     def state(self) -> State:
-        """All of it, as named arrays."""
+        """The whole calibration as named arrays."""
         return {
             "terms": np.array(self.model.names),
             "frames": vars(self.model.frames),
@@ -176,12 +176,12 @@ class Calibration:
 
     @classmethod
     def restore(cls, arm: Arm, state: State) -> "Calibration":
-        """What `state` returned, for the same nominal arm; ValueError where parts do not fit."""
+        """The calibration from its `state` and the same nominal arm; ValueError if parts misfit."""
         terms = {name: JOINT_WAVES[name] for name in state["terms"].tolist()}
         estimate, pattern = Identification(**state["estimate"]), state.get("residual")
         model = ErrorModel(arm, terms, Frames(**state["frames"]))
         shape = model.deviations.shape
-        deviations = state.get("deviations", model.deviations)  # older files do not have them
+        deviations = state.get("deviations", model.deviations)  # older files lack this key
         sizes = estimate.parameters.shape, estimate.covariance.shape, deviations.shape
         if sizes != (shape, 2 * shape, shape):
             raise ValueError("parameters of another error model")
@@ -190,7 +190,7 @@ class Calibration:
 
 
 def turned(turns: np.ndarray, residuals: np.ndarray) -> np.ndarray:
-    """Residuals (n, 3) or (n, 6) along other axes, by rotations (n, 3, 3)."""
+    """Residuals (n, 3) or (n, 6), rotated to other axes by rotations (n, 3, 3)."""
     vectors = residuals.reshape(len(turns), -1, 3)
     return np.einsum("nij,nkj->nki", turns, vectors).reshape(residuals.shape)
 
@@ -202,20 +202,20 @@ def calibrate(
     frames: Frames | None = None,
     last: Calibration | None = None,
 ) -> Calibration:
-    """The calibration of a nominal arm by the most probable of several error models.
+    """The calibration of a nominal arm with the most probable of several error models.
 
-    A model with more terms has to be far more probable: where geometry is all that is wrong, only
-    geometry is used. Its residuals go to a Gaussian process if that is more probable than noise.
+    A model with more terms must be far more probable: if only the geometry is wrong, only geometry
+    is used. A Gaussian process of the residuals is added if it is more probable than noise.
 
     Args:
         candidates: joint terms of the error models, the simplest first.
-        observations: of the arm.
-        frames: at both ends of the arm; default: the instrument is in the frame of the arm's base,
-            and the target in that of its tool.
-        last: a calibration from fewer measurements, to start from. The hyperparameters of its
-            process, or that it needs none, are kept until `is_time_to_search`.
+        observations: the measurements of the arm.
+        frames: the frames at both ends of the arm; default: the instrument measures in the frame of
+            the arm's base, and the target is at the tool frame.
+        last: a calibration from fewer measurements, as the start. The hyperparameters of its
+            process, or the lack of a process, are kept until `is_time_to_search`.
 
-    Raises BadMeasurement: no numbers, or grossly off; or none at all.
+    Raises BadMeasurement: no measurements, numbers that are not finite, or gross errors.
     """
     start, before = (last.estimate, len(last.estimate.weights)) if last else (None, 0)
     every = calibrations(arm, candidates, observations, frames, start)
@@ -235,9 +235,9 @@ def calibrations(
     start: Identification | None = None,
     weights: np.ndarray | None = None,
 ) -> list[Calibration]:
-    """The calibrations by all error models, without a process; for a start, see `identify`.
+    """The calibrations with all error models, without a process; see `identify` for `start`.
 
-    Raises InvalidSetting: something else than an arm and observations of it.
+    Raises InvalidSetting: the arm is no Arm, or the observations are no Observations.
     """
     check_kind("arm", arm, Arm)
     check_kind("observations", observations, Observations)
@@ -246,12 +246,12 @@ def calibrations(
 
 
 def choose(candidates: Sequence[Calibration]) -> int:
-    """Which calibration from the same observations is the most probable, the simplest first."""
+    """The index of the most probable of calibrations from the same data, the simplest first."""
     best = 0
     for number, other in enumerate(candidates):
-        further = other.model.size - candidates[best].model.size
+        added = other.model.size - candidates[best].model.size
         gain = other.estimate.log_evidence - candidates[best].estimate.log_evidence
-        if gain > CONVINCING * np.sqrt(further):
+        if gain > CONVINCING * np.sqrt(added):
             best = number
     return best
 
@@ -259,9 +259,9 @@ def choose(candidates: Sequence[Calibration]) -> int:
 def with_pattern(
     calibration: Calibration, observations: Observations, hyperparameters: np.ndarray | None = None
 ) -> Calibration:
-    """With a process of its residuals, if there are enough of them and they are not noise.
+    """The calibration with a process of its residuals, if they are enough and more than noise.
 
-    Its hyperparameters are the most probable, unless given: to find them takes long.
+    By default, the hyperparameters are the most probable ones, which take long to find.
     """
     estimate = calibration.estimate
     noise, good = estimate.noise, np.flatnonzero(estimate.weights > DOUBTFUL)

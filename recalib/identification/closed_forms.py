@@ -1,17 +1,17 @@
 """The frames of the instrument and of the targets, in closed form.
 
-With T_i = (R_i, t_i) the pose of the tool that the nominal arm gives, the unknown X (the arm's base
-in the frame of the instrument) and Z_k (target k on the tool, at z_k) satisfy, apart from the
-errors of the arm,
+T_i = (R_i, t_i) is the pose of the tool by the nominal arm. X is the pose of the arm's base in the
+frame of the instrument, and Z_k that of target k on the tool, at z_k. Both are unknown. Apart from
+the errors of the arm, they satisfy one of these equations.
 
-- poses Y_i = X T_i Z_k: the rotations by the leading singular vectors of a sum of Kronecker
-  products (Shah 2013, Solving the robot-world/hand-eye calibration problem using the Kronecker
-  product), then the translations by linear least squares;
-- positions y_i = X (t_i + R_i z_k): linear in the inverse of X and in z_k if its rotation may be
-  any matrix, replaced by the nearest rotation; or, with z_k = 0, by aligning points;
-- a ball in socket s, c_s = t_i + R_i z_k: linear.
+- Poses: Y_i = X T_i Z_k. The rotations are leading singular vectors of a sum of Kronecker products
+  (Shah 2013, Solving the robot-world/hand-eye calibration problem using the Kronecker product);
+  the translations follow by linear least squares.
+- Positions: y_i = X (t_i + R_i z_k). They are linear in the inverse of X and in z_k if the rotation
+  may be any matrix, which is then replaced by the nearest rotation; or align points with z_k = 0.
+- A ball in socket s: c_s = t_i + R_i z_k, which is linear.
 
-If one of X and Z_k is known, the other follows by aligning points and axes, or linearly.
+If X or Z_k is known, the other one follows by aligning points and axes, or linearly.
 """
 
 from collections.abc import Iterator
@@ -23,10 +23,10 @@ from recalib.identification.model.frames import BASE, HELD, LINK, UNKNOWN, Frame
 from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.observations import Observations
 
-OPEN = 1e-2  # a singular value so small, over the largest, leaves a direction open
-# The second singular value over the first: where the tool turns about one axis alone they are equal
+OPEN = 1e-2  # singular values below this fraction of the largest leave a direction undetermined
+# The second singular value over the first: both are equal if the tool turns about one axis only.
 UNDECIDED = 0.9999
-GUESSED = UNKNOWN[0], HELD  # of a point: it has no turn
+GUESSED = UNKNOWN[0], HELD  # prior deviations of a point, which has no orientation
 
 
 def solutions(
@@ -35,13 +35,13 @@ def solutions(
     base: np.ndarray | None = None,
     target: np.ndarray | None = None,
 ) -> Iterator[Frames]:
-    """Frames that fit rows; none where they are open.
+    """Candidate frames that fit the rows; none if the rows do not determine them.
 
     Args:
-        tool: (n, 4, 4) m, nominal poses.
-        observations: the measurements there.
-        base: (4, 4) m in the frame of the instrument, if known.
-        target: (4, 4) m in the frame of the tool, if known, the same for all targets.
+        tool: (n, 4, 4) m, nominal poses of the tool.
+        observations: the measurements at these poses.
+        base: (4, 4) m, in the frame of the instrument, if known.
+        target: (4, 4) m, in the frame of the tool, if known, the same for all targets.
     """
     if observations.sockets is not None:
         yield _by_sockets(tool, observations, observations.sockets, target)
@@ -58,9 +58,9 @@ def solutions(
 
 
 def turns_by_poses(tool: np.ndarray, observations: Observations) -> list[np.ndarray]:
-    """The rotation (3, 3) of X, from the target that is measured most often; none if open."""
+    """The rotation (3, 3) of X, from the most measured target; empty if it is undetermined."""
     rows = observations.targets == np.bincount(observations.targets).argmax()
-    # of X R_i = Y_i Z' in the least squares sense, with the rows of each matrix in one vector
+    # solves X R_i = Y_i Z' in the least squares sense, with each matrix flattened by rows
     products = np.einsum("nij,nkl->ikjl", observations.rotations[rows], tool[rows, :3, :3])
     left, values, _ = np.linalg.svd(products.reshape(9, 9))
     if values[1] >= UNDECIDED * values[0]:
@@ -70,7 +70,7 @@ def turns_by_poses(tool: np.ndarray, observations: Observations) -> list[np.ndar
 
 
 def _turns_by_positions(tool: np.ndarray, observations: Observations) -> list[np.ndarray]:
-    """Rotations (3, 3) of X from positions: as if z_k were zero, and as if it were any matrix."""
+    """Rotations (3, 3) of X from positions: with z_k = 0, and with X relaxed to any matrix."""
     turns, points, count = tool[:, :3, :3], tool[:, :3, 3], len(observations)
     measured = observations.positions
     # X' y - R_i z_k + b = t_i
@@ -82,7 +82,7 @@ def _turns_by_positions(tool: np.ndarray, observations: Observations) -> list[np
 
 
 def _aligned(target_poses: np.ndarray, observations: Observations, target: np.ndarray) -> Frames:
-    """By the nominal poses (n, 4, 4) of a target whose place on the tool is known."""
+    """Frames from the nominal poses (n, 4, 4) of a target whose pose on the tool is known."""
     points = target_poses[:, :3, 3]
     across = _across(observations.positions, points)
     if observations.kinds == 2:
@@ -98,15 +98,15 @@ def _aligned(target_poses: np.ndarray, observations: Observations, target: np.nd
 def _placed(
     turn: np.ndarray, tool: np.ndarray, observations: Observations, known: np.ndarray | None
 ) -> Frames:
-    """By the rotation (3, 3) of X, or all of it: y_i - X t_i = x + X R_i z_k."""
+    """Frames from the rotation (3, 3) of X, or all of X, by y_i - X t_i = x + X R_i z_k."""
     turned = turn @ tool[:, :3, :3]
     goal = observations.positions - tool[:, :3, 3] @ turn.T
     system = _by_number(turned, observations.targets)
-    if known is None:  # what the instrument and the targets explain alike is the instrument's
-        alike, middle = system.mean(axis=0), goal.mean(axis=0)
-        points = _smallest(system - alike, goal - middle)
+    if known is None:  # a shift that both could explain goes to the instrument, not the targets
+        common, middle = system.mean(axis=0), goal.mean(axis=0)
+        points = _smallest(system - common, goal - middle)
         base = np.eye(4)
-        base[:3, :3], base[:3, 3] = turn, middle - alike @ points
+        base[:3, :3], base[:3, 3] = turn, middle - common @ points
         points = points.reshape(-1, 3)
     else:
         base, points = known, _least_squares(system, goal - known[:3, 3]).reshape(-1, 3)
@@ -114,9 +114,9 @@ def _placed(
     targets[:, :3, 3] = points
     if observations.kinds == 2:
         between = turned.swapaxes(1, 2) @ observations.rotations
-        for number, own in enumerate(targets):
+        for number, pose in enumerate(targets):
             turns = Rotation.from_matrix(between[observations.targets == number])
-            own[:3, :3] = turns.mean().as_matrix()
+            pose[:3, :3] = turns.mean().as_matrix()
     return Frames(
         base,
         targets,
@@ -130,7 +130,7 @@ def _placed(
 def _by_sockets(
     tool: np.ndarray, observations: Observations, numbers: np.ndarray, target: np.ndarray | None
 ) -> Frames:
-    """The frames of balls, and the centres of sockets in the arm's base: c_s - R_i z_k = t_i."""
+    """Frames of balls, and centres of sockets in the base frame, by c_s - R_i z_k = t_i."""
     unit = np.tile(np.eye(3), (len(observations), 1, 1))
     targets = np.tile(
         np.eye(4) if target is None else target, (observations.targets.max() + 1, 1, 1)
@@ -146,14 +146,14 @@ def _by_sockets(
 
 
 def _across(measured: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Of points (n, 3) and where they were measured, the sum (3, 3) of products about the means."""
+    """Cross-covariance (3, 3), unnormalised, of points (n, 3) and their measured positions."""
     return (measured - measured.mean(axis=0)).T @ (points - points.mean(axis=0))
 
 
 def _by_number(blocks: np.ndarray, numbers: np.ndarray) -> np.ndarray:
-    """Blocks (n, 3, 3) in rows (n, 3, 3 * numbers) of a matrix, each in the columns it belongs to.
+    """Rows (n, 3, 3 * numbers) of a matrix with blocks (n, 3, 3) in the columns of their numbers.
 
-    What is not there has zeros.
+    All other columns are zero.
     """
     placed = np.zeros((len(blocks), 3, np.max(numbers) + 1, 3))
     placed[np.arange(len(blocks)), :, numbers] = blocks
@@ -161,12 +161,12 @@ def _by_number(blocks: np.ndarray, numbers: np.ndarray) -> np.ndarray:
 
 
 def _least_squares(system: np.ndarray, goal: np.ndarray) -> np.ndarray:
-    """The smallest solution (m,) of a system (n, 3, m) for a goal (n, 3)."""
+    """The minimum-norm least-squares solution (m,) of a system (n, 3, m) for a goal (n, 3)."""
     return np.linalg.lstsq(system.reshape(goal.size, -1), goal.ravel(), rcond=OPEN)[0]
 
 
 def _smallest(turned: np.ndarray, goal: np.ndarray) -> np.ndarray:
-    """The same where the system is of rotations, about their mean: it may be zero altogether."""
+    """The same for a system of rotations about their mean, which may be zero altogether."""
     left, values, right = np.linalg.svd(turned.reshape(goal.size, -1), full_matrices=False)
     determined = values > OPEN * np.sqrt(2 * len(goal))
     return right[determined].T @ (left[:, determined].T @ goal.ravel() / values[determined])

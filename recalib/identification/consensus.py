@@ -1,10 +1,10 @@
-"""Robust identification where many rows are outliers, up to a third and more.
+"""Robust identification from data with many outliers, up to a third of the rows and more.
 
-An identification that starts from all rows may end between good rows and outliers and take the
+An identification that starts from all rows may end between good rows and outliers and mistake their
 distance for noise. So, if the noise is suspiciously large, it also starts from many small sets of
-rows, some of them without outliers (Rousseeuw 1984, Least median of squares regression). A start
-that finds far less noise in most rows is accepted, if these are more rows than a model could fit by
-chance.
+rows, some of them without outliers (Rousseeuw 1984, Least median of squares regression). The result
+of a start is accepted if it has far less noise in most rows, and if these are more rows than a
+model could fit by chance.
 """
 
 import numpy as np
@@ -15,17 +15,17 @@ from recalib.identification.model.linearisation import LEVER, Linearisation
 from recalib.identification.model.observations import Observations
 from recalib.numerics.randomness import generator
 
-SUSPICIOUS = 1e-3  # m along an axis: few instruments are so bad
-SETS, BEST = 100, 3  # small sets of rows, and how many of them are gone on from
-FEW = {1: 10, 2: 6}  # rows of a small set, of positions and of poses
-GROSS = 3.0  # times the median error: such a row is left out at the start
-MOST = 0.6  # the part of rows that must not be doubted
-AMPLE = 1.5  # times the numbers that can be fitted by chance
-CLEARLY = 0.3  # of the noise that was found before
+SUSPICIOUS = 1e-3  # m along an axis: few instruments are so noisy
+SETS, BEST = 100, 3  # the number of small sets of rows, and of the best to continue from
+FEW = {1: 10, 2: 6}  # rows in a small set, of positions and of poses
+GROSS = 3.0  # times the median error: rows beyond it are left out at the start
+MOST = 0.6  # the least fraction of rows that are not doubtful
+AMPLE = 1.5  # margin on the count of numbers that a model can fit by chance
+CLEARLY = 0.3  # a new result must have less than this fraction of the noise before it
 
 
 def identify_by_consensus(model: ErrorModel, observations: Observations) -> Identification:
-    """As `identify`; see above.
+    """The estimate of `identify`, or that of a start from few rows if it has far less noise.
 
     Raises BadMeasurement, as `identify`.
     """
@@ -34,7 +34,7 @@ def identify_by_consensus(model: ErrorModel, observations: Observations) -> Iden
     if found.noise[0] < SUSPICIOUS or len(observations) <= size:
         return found
     rng, terms = generator(0, "consensus"), model.terms(observations.joints)
-    # so many numbers an arm can fit exactly: 4 for each joint, 6 for its ends
+    # an arm can fit 4 numbers for each joint and 6 for its ends exactly
     by_chance = AMPLE * (4 * len(model.nominal.slides) + 6)
     starts = []
     for number in range(SETS):

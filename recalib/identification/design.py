@@ -1,4 +1,4 @@
-"""The most informative postures to measure next (D-optimal design)."""
+"""Choice of the most informative postures to measure next (D-optimal design)."""
 
 from collections.abc import Iterator
 
@@ -14,11 +14,11 @@ from recalib.identification.model.optics import Optics
 def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarray:
     """The information gained by a measurement at each of several postures, (n,) in nats.
 
-    It is the logarithm of the factor by which the volume of the parameters' uncertainty would
-    shrink: what D-optimal designs maximise. Joints (n, joints) [rad, m] are each for one
+    A gain is the logarithm of the factor by which the volume of the parameters' uncertainty would
+    shrink. D-optimal designs maximise it. Each row of joints (n, joints) [rad, m] stands for one
     measurement of the first target.
 
-    Raises InvalidSetting: another shape, something else than a calibration.
+    Raises InvalidSetting: another shape, or an object that is not a calibration.
     """
     check_kind("calibration", calibration, Calibration)
     joints = array_of("joints", joints, ("n", len(calibration.model.nominal.joints)))
@@ -26,10 +26,10 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
 
 
 def surprises(calibration: Calibration, observations: Observations) -> np.ndarray:
-    """How unexpected measurements of the first target are (n,), of which none was learned from.
+    """Normalised squared prediction errors (n,) of new measurements of the first target.
 
-    The mean square of the prediction errors, over the covariance of both (the
-    normalised innovation of a Kalman filter): about 1 where model and noise are right.
+    It is the mean square of the errors over the covariance of prediction and measurement (the
+    normalised innovation of a Kalman filter): about 1 if model and noise are right.
     """
     rows = _rows(calibration, observations.joints, observations.optics)
     noise = np.repeat(calibration.estimate.noise, 3)
@@ -42,10 +42,10 @@ def surprises(calibration: Calibration, observations: Observations) -> np.ndarra
 def most_informative(
     calibration: Calibration, joints: np.ndarray, count: int, optics: Optics | None = None
 ) -> Iterator[tuple[int, np.ndarray]]:
-    """At most `count` different postures of the largest gains, each given those before it.
+    """Up to `count` postures, chosen greedily: each has the largest gain after those before it.
 
-    Optics are of the pictures that would be taken there; None if no cameras measure. Yields each
-    one's number, and the covariance (P, P) of the parameters once it is measured.
+    `optics` belong to the pictures that would be taken there; None without cameras. Yields the
+    number of each posture, and the covariance (P, P) of the parameters after its measurement.
     """
     rows, covariance = _rows(calibration, joints, optics), calibration.estimate.covariance
     unused = np.ones(len(rows), dtype=bool)

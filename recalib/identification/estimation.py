@@ -1,18 +1,17 @@
 """Identification of an arm from measurements: the most probable parameters of an error model.
 
-With r_i the residual of measurement i over its noise, and p_j a parameter over its prior deviation,
-Gauss-Newton minimises
+Let r_i be the residual of measurement i over its noise, and p_j a parameter over its prior standard
+deviation. Gauss-Newton minimises
 
     sum_i rho(|r_i|^2) + sum_j p_j^2 / (2 v_j)
 
 where rho(s) = s / 2 up to a limit and then grows like log(s) (Cauchy's tail): an outlier has almost
-no weight. Estimated along with the parameters are
+no weight. Two more quantities are estimated together with the parameters:
 
-- the noise, from squared residuals over the degrees of freedom that the parameters leave (MacKay's
-  evidence);
-- the variances v_j, from what the data say of each parameter and of their common scale (relevance
-  determination): damage is sparse, most of what may be wrong with an arm is right, and a parameter
-  that explains nothing is held at nominal. Unknown frames are not damage: their variances are 1.
+- the noise, from squared residuals over the remaining degrees of freedom (MacKay's evidence);
+- the variances v_j, from the data's evidence on each parameter and on their common scale (relevance
+  determination). Damage is sparse: most parameters of a damaged arm are still nominal, and one that
+  explains nothing is held there. Unknown frames are not damage: their variances are 1.
 """
 
 from dataclasses import dataclass
@@ -27,25 +26,25 @@ from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Observations, check_observations
 from recalib.identification.unseen import Unseen
 
-GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements
-DOUBTFUL = 0.3  # the weight of a measurement below which it is no part of a pattern or a majority
-# Degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide.
+GOOD = 0.99  # the limit of rho is this quantile of the squared residuals of good measurements
+DOUBTFUL = 0.3  # measurements with less weight count for no pattern of residuals and no majority
+# Degrees of freedom of the prior on the deviations: the fewer, the more the data decide.
 SPARSITY = 0.05
-# The common scale of all parameters is held by this many more, as large as the model expects.
+# Pseudo-parameters of the expected size that hold the common scale of all parameters.
 COMMON = 20.0
-WORN = 3.0**2  # no variance is larger: so far wear goes, in squares of what a model expects
-# The noise of position and of orientation are assumed to be alike, as by so many measurements.
+WORN = 3.0**2  # the largest variance: wear of three times the expected size
+# Pseudo-measurements by which the noises of position and of orientation are assumed to be alike.
 SHARED = 10.0
 MEDIAN = chdtri(3, 0.5)  # of the squared length of a residual whose components are normal
 FIRST_NOISE = 1e-4  # m, rad
 LEAST_NOISE = 1e-6  # m, rad: finer than any instrument; exact data would make singular equations
-ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
+ROBUST_STEPS = 3  # first steps, in which the noise comes from medians, as outliers do not move them
 STEPS = 60
-# A new linearisation is due where one parameter alone moves the tool so far that its square exceeds
-# this part of the noise: second-order terms are squares [rad^2] times levers of about a metre, and
-# then reach some hundredths of the noise in all.
+# Linearise anew as soon as the square of the motion of the tool by one parameter alone exceeds this
+# fraction of the noise. Second-order terms are squares [rad^2] times levers of about a metre, and
+# then amount to some hundredths of the noise in all.
 NEGLIGIBLE = 0.01
-CONVERGED = 0.1  # the last change of parameters, in posterior deviations, and of noise, relative
+CONVERGED = 0.1  # the last step of parameters, in posterior deviations; relative change of noise
 
 
 @dataclass(frozen=True)
@@ -54,13 +53,13 @@ class Identification:
 
     Attributes:
         parameters: (P,) of the error model.
-        covariance: (P, P) of their errors.
+        covariance: (P, P) of the parameters' errors.
         noise: (1,) or (2,) standard deviations of a measurement along an axis: position [m],
             orientation [rad].
-        weights: (n,) how much each measurement counted: 1, or less if it is doubted, down to 0.
-        log_evidence: of the error model, up to a constant that depends on the data alone. It leaves
-            out how well known distances and pictures agree with the estimate.
-        converged: whether the last step changed next to nothing.
+        weights: (n,) of the measurements: 1, or less for doubtful ones, down to 0.
+        log_evidence: of the error model, up to a constant that depends on the data alone. It does
+            not include how well known distances and pictures agree with the estimate.
+        converged: whether the last step was negligible.
     """
 
     parameters: np.ndarray
@@ -77,14 +76,14 @@ def identify(
     start: Identification | None = None,
     weights: np.ndarray | None = None,
 ) -> Identification:
-    """The parameters of the model that explain the observations.
+    """The most probable parameters of the model, given the observations.
 
     Args:
-        start: an estimate to start from, for speed; default: the nominal arm. It may be that
-            of a model with the same frames, the same first terms and fewer or more of them.
-        weights: (n,) of the observations in the first step; default: all count.
+        start: an estimate to start from, for speed; default: the nominal arm. Its model may have
+            fewer or more joint terms, but the same frames and the same first terms.
+        weights: (n,) of the observations in the first step; default: 1.
 
-    Raises BadMeasurement: no numbers, or grossly off; or none at all.
+    Raises BadMeasurement: no observations, numbers that are not finite, or gross errors.
     """
     check_observations(observations, model.nominal.slides, model.frames)
     scale, kinds = model.deviations, observations.kinds
@@ -99,7 +98,7 @@ def identify(
     unseen = Unseen(model, observations)
     for iteration in range(STEPS):
         if not linear.is_good_at(parameters, NEGLIGIBLE * noise.min()):
-            del linear  # there is no room for two
+            del linear  # memory does not suffice for two
             linear = Linearisation(model, parameters, observations, terms)
         if iteration > 0:
             weights = limit / np.maximum(_squares(linear.residuals, noise), limit)
@@ -114,9 +113,9 @@ def identify(
         precision[diagonal] += 1 / variances
         try:
             step, step_norm, covariance, volume = _posterior(precision, gradient)
-        except ValueError:  # a row far off has left no regular precision
+        except ValueError:  # a gross error has made the precision singular
             row = weights.argmin()
-            valid = "what the same arm explains as the others"
+            valid = "a measurement of the same arm as the others"
             values = observations.joints if observations.measured is None else observations.measured
             raise BadMeasurement(f"measurement {row}", np.ravel(values[row]), valid) from None
         parameters = parameters + step
@@ -150,11 +149,10 @@ def _posterior(
 ) -> tuple[np.ndarray, float, np.ndarray, float]:
     """The step of the parameters (P,) for a gradient (P,), and their posterior covariance.
 
-    The precision (P, P) is overwritten: to find room for large matrices takes as long as to fill
-    them.
+    The precision (P, P) is overwritten: to allocate large matrices takes as long as to fill them.
 
     Returns the step, its norm in posterior deviations, the covariance (P, P), and the logarithm of
-    the volume that the posterior leaves.
+    the posterior's volume.
     """
     factor = scipy.linalg.cholesky(precision.T, overwrite_a=True)
     step = scipy.linalg.cho_solve((factor, False), gradient)
@@ -166,7 +164,7 @@ def _posterior(
 
 
 def _initial(model: ErrorModel, start: Identification | None) -> tuple[np.ndarray, np.ndarray]:
-    """Parameters (P,) over their deviations and their variances, to start from."""
+    """Initial parameters (P,) over their deviations, and the initial v_j (P,)."""
     scale = model.deviations
     parameters, variances = np.zeros_like(scale), np.ones_like(scale)
     if start is not None:
@@ -193,9 +191,9 @@ def _add_known(
     precision: np.ndarray,
     gradient: np.ndarray,
 ) -> None:
-    """Add to the normal equations, (P, P) and (P,), what is known apart from the rows.
+    """Add information from other sources than the rows to the normal equations (P, P) and (P,).
 
-    This is: distances between sockets, the pictures' own information on their optics, and stated
+    The sources are distances between sockets, the pictures' information on their optics, and stated
     poses of frames.
     """
     centres = model.sockets(parameters * model.deviations)
@@ -235,7 +233,7 @@ def _log_likelihood(residuals: np.ndarray, noise: np.ndarray, limit: float) -> f
 def _log_prior(
     parameters: np.ndarray, variances: np.ndarray, sparse: np.ndarray, common: float
 ) -> float:
-    """Of the parameters given their variances, of these given their common scale, and of that.
+    """The log prior of the parameters, their variances, and the common scale of the variances.
 
     The variances and their scale have inverse gamma distributions.
     """
@@ -251,9 +249,9 @@ def _noise(
 
     Args:
         residuals: (kind, n, 3) m and rad.
-        weights: (n,) of the measurements; their squares leave nothing of a gross outlier.
+        weights: (n,) of the measurements; squared, they remove gross outliers entirely.
         effective_dof: (kind,) degrees of freedom that the parameters use.
-        robust: to go by medians, which outliers do not move.
+        robust: whether to use medians, which outliers do not move.
     """
     squares = np.square(residuals).sum(axis=-1)
     if robust:

@@ -1,8 +1,8 @@
-"""Hand-eye calibration: where a camera and a board are, by the poses of an arm that is not exact.
+"""Hand-eye calibration: the poses of a camera and a board, from the poses of an inexact arm.
 
-Closed forms start a search by Gauss' and Newton's steps. The pose accuracy of the arm, which
-maximises the restricted likelihood (Patterson and Thompson 1971), and the weights of poses that do
-not fit are found with it, in turn.
+Closed forms start a Gauss-Newton search. It alternates with estimates of the arm's pose accuracy,
+which maximises the restricted likelihood (Patterson and Thompson 1971), and of the weights of poses
+that do not fit.
 """
 
 from collections.abc import Iterator
@@ -18,19 +18,20 @@ from recalib.identification.model.hand_eye_model import ENDS, HandEye, LinearHan
 from recalib.identification.model.linearisation import displaced
 from recalib.identification.model.observations import Observations
 
-STEPS, ROUNDS, SMALL = 40, 20, 1e-8  # of a fit; of the noise and the weights; m, rad
-LONGEST = 0.5  # rad: a step
-FAR = 16.8  # squares of deviations: of 6 numbers, 1 % are farther off; they count the less
-SETTLED = 0.01  # a change of weights
-FINEST, COARSEST = 1e-7, 1.0  # m, rad: no arm is as accurate, or as bad
+# Steps of a fit; rounds of noise and weights; the step [m, rad] at which a fit has converged.
+STEPS, ROUNDS, SMALL = 40, 20, 1e-8
+LONGEST = 0.5  # rad: the longest step
+FAR = 16.8  # the 99 % quantile of chi-square with 6 degrees of freedom; beyond it, weights fall
+SETTLED = 0.01  # the largest change of weights at convergence
+FINEST, COARSEST = 1e-7, 1.0  # m, rad: bounds on the accuracy of any arm
 FOLDS = 30
 EQUAL = 0.05  # rad: angles that may be the same
-TURNS = 24  # about the only axis, to start from
-ONE_AXIS = 1.5  # deg: turns about a second axis that are smaller determine nothing
+TURNS = 24  # starting angles about the only axis
+ONE_AXIS = 1.5  # deg: smaller turns about a second axis determine nothing
 
 
 def calibrate_hand_eye(sights: Sights) -> HandEye:
-    """The most likely calibration; what the poses leave open stays where a start has it."""
+    """The most likely calibration; directions that poses do not determine stay as at the start."""
     found = _weighed(min(map(_first, starts(sights)), key=lambda one: one.misfit))
     for _ in range(ROUNDS):
         before = found.weights
@@ -41,11 +42,11 @@ def calibrate_hand_eye(sights: Sights) -> HandEye:
 
 
 def upended(flange: np.ndarray, board: np.ndarray) -> np.ndarray:
-    """In which pictures (n,) a board is upside down that looks the same so, unlike in most others.
+    """Whether each picture (n,) shows a symmetric board upside down relative to most others.
 
-    Poses (n, 4, 4) of flange and board differ by equal angles, in either direction and on either
-    side of the arm. So each two pictures favour equal sides or different ones. None is upside down
-    if that does not explain the angles: then the poses are mistaken.
+    Between two pictures, the flange and the board turn by equal angles. So each pair of pictures
+    favours equal or opposite orientations of the board. None counts as upside down if orientations
+    do not explain the angles: then the poses (n, 4, 4) of flange or board are wrong.
     """
     arm, shown = flange[:, :3, :3], board[:, :3, :3]
     ones, others = np.stack([arm, shown, shown * [-1, -1, 1]]), np.stack([arm, shown, shown])
@@ -54,21 +55,21 @@ def upended(flange: np.ndarray, board: np.ndarray) -> np.ndarray:
     same, turned = np.abs(same - angles), np.abs(turned - angles)
     side = np.linalg.eigh(turned - same)[1][:, -1] > 0
     other: np.ndarray = side != (np.mean(side) > 0.5)
-    left = np.where(other[:, None] == other, same, turned)
-    return other & (np.median(left) < EQUAL)
+    remaining = np.where(other[:, None] == other, same, turned)
+    return other & (np.median(remaining) < EQUAL)
 
 
 def _weighed(found: HandEye) -> HandEye:
-    """The same, with weights by how far off poses are, in deviations; of the nearest, 1."""
+    """The same, with weights from the poses' residuals over their deviations; the largest is 1."""
     linear = LinearHandEye(found)
     rows = linear.residuals
     squares = np.einsum("ni,nij,nj->n", rows, linear.precisions, rows)
-    far = max(FAR, squares.min())  # else none might count, by noise that is assumed too small
+    far = max(FAR, squares.min())  # if the assumed noise is too small, all might lose their weight
     return replace(found, weights=far / np.maximum(squares, far))
 
 
 def starts(sights: Sights) -> Iterator[HandEye]:
-    """Closed forms; if the flange turned about one axis alone, several."""
+    """Closed-form solutions; several if the flange turned about one axis alone."""
     if sights.axes[0][1] < ONE_AXIS:
         ends = _about_one_axis(sights.between, sights.board)
     else:
@@ -81,7 +82,7 @@ def starts(sights: Sights) -> Iterator[HandEye]:
 def _about_one_axis(
     between: np.ndarray, board: np.ndarray
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """The camera's axis of rotation is the arm's; the turn about it is tried all around."""
+    """Poses of camera and board for turns all around the one axis of both arm and camera."""
     pairs = [poses[:, :3, :3] @ poses[0, :3, :3].T for poses in (between, board)]
     arm, camera = (Rotation.from_matrix(turns).as_rotvec() for turns in pairs)
     across, axis = nearest_rotation(arm.T @ camera), np.linalg.svd(arm, full_matrices=False)[2][0]
@@ -99,23 +100,23 @@ def _about_one_axis(
 
 
 def _first(start: HandEye) -> HandEye:
-    """The best from a start, with the accuracy that most poses show there."""
+    """The best calibration near a start, with the accuracy of the arm from medians there."""
     sizes = np.abs(start.residuals(start.sights)).reshape(-1, 2, 3)
     accuracy = np.maximum(np.median(sizes, axis=(0, 2)), FINEST)
     return _moved_to_best(replace(start, accuracy=accuracy))
 
 
 def information(found: HandEye) -> np.ndarray:
-    """The information (n, 12, 12) of each pose on the poses of camera and board."""
+    """The information (n, 12, 12) that each pose has on the poses of camera and board."""
     linear = LinearHandEye(found)
     slopes = linear.slopes[..., :ENDS]
     return slopes.swapaxes(1, 2) @ linear.precisions @ slopes
 
 
 def held_out(found: HandEye, folds: np.ndarray | None = None) -> np.ndarray:
-    """Residuals (n, 6) [m, rad] of each pose by a calibration without its fold.
+    """Residuals (n, 6) [m, rad] of each pose from a calibration without its fold.
 
-    Folds (n,) are the numbers of the poses' folds; by default 30, in turn.
+    `folds` (n,) numbers the fold of each pose; by default, poses go to 30 folds in turn.
     """
     residuals = np.zeros((len(found.sights), 6))
     folds = np.arange(len(residuals)) % FOLDS if folds is None else folds
@@ -127,7 +128,7 @@ def held_out(found: HandEye, folds: np.ndarray | None = None) -> np.ndarray:
 
 
 def _with_noise(found: HandEye) -> HandEye:
-    """The same with the most likely accuracy of the arm, and noise of poses in a table."""
+    """The same, with the most likely accuracy of the arm and, for poses from a table, noise."""
     linear, by_table = LinearHandEye(found), found.sights.optics is None
     start = [*found.accuracy, *np.maximum(found.noise, found.accuracy / 10)[: 2 * by_table]]
 
@@ -146,7 +147,7 @@ def _with_noise(found: HandEye) -> HandEye:
 
 
 def _moved_to_best(found: HandEye) -> HandEye:
-    """The best camera, board and optics by the noise and weights of a calibration."""
+    """The best camera, board and optics, given the noise and weights of a calibration."""
     sights = found.sights
     reach = max(np.abs(poses[:, :3, 3]).max() for poses in (sights.flange, sights.board))
     for _ in range(STEPS):
@@ -157,7 +158,7 @@ def _moved_to_best(found: HandEye) -> HandEye:
         covariance = inverse * scale * scale[:, None]
         step = covariance @ gradient
         positions, turns = np.abs(step[:ENDS].reshape(2, 2, 3)).max(axis=(0, 2))
-        step /= max(1.0, positions / reach, turns / LONGEST)  # longer ones may never end
+        step /= max(1.0, positions / reach, turns / LONGEST)  # longer steps may never converge
         camera, board = displaced(found.camera, step[:6]), displaced(found.board, step[6:ENDS])
         optics = found.optics + step[ENDS:]
         found = replace(found, camera=camera, board=board, optics=optics, covariance=covariance)

@@ -1,8 +1,8 @@
 """Cross-validation: the errors of an identification on rows that were held out from it.
 
 Each row is held out in two ways: in a random fold of postures, and in a block of joint space, which
-tests extrapolation. A posture is held out as a whole, with all its targets and repetitions: any of
-its rows would reveal the others.
+tests extrapolation. A posture is held out as a whole, with all its targets and repetitions, since
+any of its rows would reveal the others.
 """
 
 from collections.abc import Callable
@@ -18,18 +18,18 @@ from recalib.identification.model.optics import Optics
 from recalib.numerics.randomness import generator
 
 FOLDS = 5
-COVERED = 0.95  # of measurements should lie within the intervals
+COVERED = 0.95  # the nominal coverage of the intervals
 
 
 @dataclass(frozen=True)
 class HeldOut:
-    """The residuals of each row, of an identification without it.
+    """The residual of each row from an identification without it.
 
     Attributes:
         residuals: (n, 3) m, or (n, 6) m and rad, along the axes of the instrument.
-        folds: (n,) the number of the part in which a row was held out.
-        optics: of rows by cameras.
-        unseen: (n,) m, how uncertain predicted positions are along the line of sight.
+        folds: (n,) the number of the fold in which each row was held out.
+        optics: the optics of rows from cameras.
+        unseen: (n,) m, standard deviations of predicted positions along the line of sight.
     """
 
     residuals: np.ndarray
@@ -44,10 +44,10 @@ class HeldOut:
 
     @property
     def errors(self) -> np.ndarray:
-        """(n, 1) m or (n, 2) m and rad: how far off, and how far turned.
+        """Errors of position and orientation: (n, 1) m or (n, 2) m and rad.
 
-        By cameras, how far corners are off across the line of sight, and how uncertain the
-        calibration is along it: what a picture measures there is mostly its own noise.
+        For cameras, a position error combines the corners' error across the line of sight with the
+        calibration's uncertainty along it, where a picture measures mostly its own noise.
         """
         errors = np.linalg.norm(self.residuals.reshape(len(self.residuals), -1, 3), axis=2)
         if self.optics is not None:
@@ -57,26 +57,26 @@ class HeldOut:
 
     @property
     def losses(self) -> np.ndarray:
-        """(n,) m, a turn of one rad as `LEVER`."""
+        """Errors (n,) [m], in which a turn of one rad counts as `LEVER`."""
         return self.errors @ np.array([1, LEVER])[: self.errors.shape[1]]
 
     def radius(self, kind: int = 0) -> float:
-        """The distance from predictions within which 95 % of each part's measurements lie.
+        """The distance from predictions within which 95 % of each fold's measurements lie.
 
-        A covariance counts noise and the parameters' uncertainty, but not errors that no parameter
-        describes: they are in the residuals (split conformal prediction, Lei et al. 2018). If parts
-        lie apart, their errors differ, and a new place may be as bad as the worst. Kind 0 is of
-        position [m], 1 of orientation [rad].
+        A covariance holds noise and the parameters' uncertainty, but not errors that no parameter
+        describes. Residuals contain them (split conformal prediction, Lei et al. 2018). The errors
+        of folds that lie apart differ, and a new place may be as bad as the worst fold. Kind 0 is
+        position [m], 1 orientation [rad].
         """
         off, radii = self.errors[:, kind], []
         for fold in np.unique(self.folds):
-            some = np.sort(off[self.folds == fold])
-            rank = min(len(some), int(np.ceil((len(some) + 1) * COVERED)))
-            radii.append(float(some[rank - 1]))  # the least that covers 95 % of others like them
+            errors = np.sort(off[self.folds == fold])
+            rank = min(len(errors), int(np.ceil((len(errors) + 1) * COVERED)))
+            radii.append(float(errors[rank - 1]))  # the least radius for 95 % of rows like these
         return max(radii)
 
     def coverage(self) -> float:
-        """The part of positions within the radius of the other folds."""
+        """The fraction of positions within the radius from the other folds."""
         within = [
             self[self.folds == fold].errors[:, 0] <= self[self.folds != fold].radius()
             for fold in np.unique(self.folds)
@@ -85,29 +85,29 @@ class HeldOut:
 
 
 def random_folds(observations: Observations, postures: Postures) -> np.ndarray:
-    """The number (n,) of the part that each row is in, with each target or socket in all of them.
+    """The fold (n,) of each row; each fold has rows of each target or socket if possible.
 
-    As far as it can be: of a posture, all rows are in one part.
+    All rows of a posture are in one fold.
     """
     rng, shown = generator(0, "folds"), observations.groups[postures.first]
 
-    def deal(some: np.ndarray) -> np.ndarray:
-        order, parts = rng.permutation(len(some)), np.empty(len(some), dtype=int)
-        by_target = order[np.argsort(shown[some[order]], kind="stable")]
-        parts[by_target] = np.arange(len(some)) % FOLDS
-        return parts
+    def deal(members: np.ndarray) -> np.ndarray:
+        order, folds = rng.permutation(len(members)), np.empty(len(members), dtype=int)
+        by_target = order[np.argsort(shown[members[order]], kind="stable")]
+        folds[by_target] = np.arange(len(members)) % FOLDS
+        return folds
 
     return _divided(observations, postures, deal)
 
 
 def blocks(observations: Observations, postures: Postures) -> np.ndarray:
-    """Likewise, of parts that lie together in joint space."""
+    """The fold (n,) of each row, where each fold is a cluster in joint space."""
     rng, joints = generator(0, "blocks"), observations.joints[postures.first]
     scaled = joints / np.where(postures.still, np.inf, joints.std(axis=0))
 
-    def cluster(some: np.ndarray) -> np.ndarray:
-        centres, _ = kmeans(scaled[some], min(FOLDS, len(some)), rng=rng)
-        return vq(scaled[some], centres)[0]
+    def cluster(members: np.ndarray) -> np.ndarray:
+        centres, _ = kmeans(scaled[members], min(FOLDS, len(members)), rng=rng)
+        return vq(scaled[members], centres)[0]
 
     return _divided(observations, postures, cluster)
 
@@ -115,14 +115,14 @@ def blocks(observations: Observations, postures: Postures) -> np.ndarray:
 def _divided(
     observations: Observations, postures: Postures, divide: Callable[[np.ndarray], np.ndarray]
 ) -> np.ndarray:
-    """The part (n,) of each row, by what divides postures (their numbers) into parts.
+    """The fold (n,) of each row, from a function that divides postures (by number) into folds.
 
-    A target or a socket whose rows would all be in one part is divided by itself: without any row
-    its place is unknown.
+    If all rows of a target or socket would be in one fold, they are divided separately: without any
+    row, its place would be unknown.
     """
-    parts, groups = divide(np.arange(len(postures))), observations.groups
+    folds, groups = divide(np.arange(len(postures))), observations.groups
     for group in range(groups.max() + 1):
         members = np.unique(postures.numbers[groups == group])
-        if np.ptp(parts[members]) == 0:
-            parts[members] = divide(members)
-    return parts[postures.numbers]
+        if np.ptp(folds[members]) == 0:
+            folds[members] = divide(members)
+    return folds[postures.numbers]

@@ -1,7 +1,7 @@
 """Initial estimate of the frames of instrument and targets, without a starting value.
 
-Closed forms are solved for all rows and for many small sets of them, of which a few gross outliers
-spoil only some. The best, by their median error, are refined by robust least squares.
+Closed forms are solved for all rows and for many small sets of rows: a few gross outliers spoil
+only some of the sets. Robust least squares refines the solutions with the smallest median errors.
 """
 
 from collections.abc import Iterator, Sequence
@@ -21,15 +21,15 @@ from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 from recalib.spelling import counted
 
-SETS, SPARE = 60, 3  # small sets of rows, and how many rows they have beyond the fewest
+SETS, SPARE = 60, 3  # the number of small sets, and their rows in excess of the minimum
 MOST = 200  # rows to estimate from: more add little
-REFINED = 6  # so many of the best estimates are refined
-ROBUST, STEPS = 5e-3, 30  # m that count as gross, and evaluations, of a refinement
-FARTHEST = 0.15  # m: an arm with a larger median error is not the one that is described
-THIN = 5e-3  # m: the standard deviation across a line of points that are on it
-# m or m/rad of residual by a parameter over its deviation: what rows leave open, such as how high
-# an arm with parallel axes stands, stays as in closed form, and rounding does not move it
-KEPT = 1e-6
+REFINED = 6  # the number of best estimates to refine
+ROBUST, STEPS = 5e-3, 30  # of a refinement: the scale [m] of gross errors, the most evaluations
+FARTHEST = 0.15  # m: an arm with a larger median error is not the described one
+THIN = 5e-3  # m: points with a smaller standard deviation across a line count as collinear
+# Weak prior, in m or m/rad of residual per unit of a scaled parameter. It holds directions that the
+# rows do not determine, such as the height of an arm with parallel axes, at their closed form.
+WEAK_PRIOR = 1e-6
 
 
 class NoInitialEstimate(RecalibError):
@@ -37,7 +37,7 @@ class NoInitialEstimate(RecalibError):
 
 
 def fewest(observations: Observations) -> int:
-    """The least number of rows for an initial estimate."""
+    """The minimum number of rows for an initial estimate."""
     targets = int(np.max(observations.targets, initial=0)) + 1
     if observations.sockets is not None:
         return targets + int(np.max(observations.sockets, initial=0)) + 2
@@ -56,8 +56,8 @@ def initial_frames(
         base: (4, 4) m in the frame of the instrument, if known.
         target: (4, 4) m in the frame of the tool, if known, the same for all targets.
 
-    Raises NoInitialEstimate: too few rows, postures too much alike, or nothing that explains them;
-    and BadMeasurement: no numbers, or matrices that are not poses.
+    Raises NoInitialEstimate: too few rows, too similar postures, or no frames that fit; and
+    BadMeasurement: numbers that are not finite, or matrices that are not poses.
     """
     check_kind("arm", arm, Arm)
     check_kind("observations", observations, Observations)
@@ -70,7 +70,7 @@ def initial_frames(
     rng = generator(0, "first guess")
     if len(observations) > MOST:
         group, order = observations.groups, rng.permutation(len(observations))
-        rare = np.flatnonzero(~np.isin(group, group[order[:MOST]]))  # all rows of other groups
+        rare = np.flatnonzero(~np.isin(group, group[order[:MOST]]))  # all rows of groups left out
         observations = observations[np.union1d(order[:MOST], rare)]
     tool = arm.forward(observations.joints)
     if observations.measured is not None and base is None and _is_open(tool, observations, target):
@@ -99,9 +99,9 @@ def initial_frames(
 
 
 def joined_frames(parts: Sequence[Frames], sights: np.ndarray) -> Frames:
-    """The frames of several instruments and targets, from the part that each sight alone gives.
+    """The frames of several instruments and targets, joined from the frames of each sight alone.
 
-    The first part with an instrument or a target decides. Sights (s, 2) are the numbers of both.
+    The first sight of an instrument or a target decides. `sights` (s, 2) has the numbers of both.
     """
     instruments, targets = (np.unique(column, return_index=True)[1] for column in sights.T)
     bases = np.array([parts[sight].base for sight in instruments])
@@ -110,17 +110,17 @@ def joined_frames(parts: Sequence[Frames], sights: np.ndarray) -> Frames:
 
 
 def _small_sets(observations: Observations, rng: np.random.Generator) -> Iterator[np.ndarray]:
-    """Rows in which each target, or each socket with each ball, is about equally often."""
+    """Sets of rows that contain each target, or each ball in each socket, about equally often."""
     group = observations.groups
     each = -(-(fewest(observations) + SPARE) // (group.max() + 1))
     for _ in range(SETS):
         order = rng.permutation(len(observations))
-        ranks = [np.flatnonzero(group[order] == one)[:each] for one in range(group.max() + 1)]
+        ranks = [np.flatnonzero(group[order] == n)[:each] for n in range(group.max() + 1)]
         yield order[np.concatenate(ranks)]
 
 
 def _is_open(tool: np.ndarray, observations: Observations, target: np.ndarray | None) -> bool:
-    """Whether the rotation of the instrument is left open."""
+    """Whether the rows leave the rotation of the instrument undetermined."""
     if observations.kinds == 2 and (target is not None or turns_by_poses(tool, observations)):
         return False
     points = observations.positions - observations.positions.mean(axis=0)
@@ -137,16 +137,16 @@ def median_error(frames: Frames, tool: np.ndarray, observations: Observations) -
 
 
 def _refined(arm: Arm, frames: Frames, observations: Observations) -> Frames:
-    """The frames at a robust optimum nearby, with the nominal arm between them."""
+    """The frames at a nearby robust optimum, with the nominal arm between them."""
     model = ErrorModel(arm, OFFSETS, frames)
     varied = np.flatnonzero(model.free & (model.deviations > HELD))
     if not len(varied):
         return frames
     terms = model.terms(observations.joints)
     units = np.array([1.0, LEVER])[: observations.kinds, None, None]
-    kept = KEPT * np.eye(len(varied))
+    prior = WEAK_PRIOR * np.eye(len(varied))
 
-    @lru_cache(maxsize=1)  # residuals and slopes are asked for one after the other
+    @lru_cache(maxsize=1)  # the optimiser asks for residuals and slopes one after the other
     def linearised(numbers: bytes) -> tuple[np.ndarray, np.ndarray]:
         parameters = np.zeros_like(model.deviations)
         parameters[varied] = np.frombuffer(numbers)
@@ -154,8 +154,8 @@ def _refined(arm: Arm, frames: Frames, observations: Observations) -> Frames:
         slopes = linearisation.jacobians[..., varied] * units[..., None]
         residuals = (linearisation.residuals * units).ravel()
         return (
-            np.concatenate([residuals, kept @ parameters[varied]]),
-            np.concatenate([-slopes.reshape(-1, len(varied)), kept]),
+            np.concatenate([residuals, prior @ parameters[varied]]),
+            np.concatenate([-slopes.reshape(-1, len(varied)), prior]),
         )
 
     found = least_squares(

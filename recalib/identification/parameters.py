@@ -1,4 +1,4 @@
-"""The parameters of an error model by name, in readable units."""
+"""The parameters of an error model, with names and readable units."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -17,11 +17,11 @@ class Parameter:
     """An estimated parameter and its uncertainty.
 
     Attributes:
-        name: in words, such as offset of elbow_joint.
+        name: a phrase, such as offset of elbow_joint.
         unit: mm, deg or deg/Nm.
-        value: in that unit.
-        deviation: its standard error, in that unit, by the data and the prior together: if the data
-            do not identify a parameter, the deviation may be small because the prior's is.
+        value: the estimate, in that unit.
+        deviation: its standard error, in that unit, from data and prior together: it may be small
+            although the data do not identify the parameter, if the prior is narrow.
     """
 
     name: str
@@ -37,7 +37,7 @@ def parameters_of(
     sockets: Sequence[str] = (),
     instruments: Sequence[str] = (),
 ) -> list[Parameter]:
-    """All parameters, in the order of the model; what has no name is called by its number."""
+    """All parameters, in the order of the model; objects without a name appear by number."""
     errors = np.sqrt(np.diag(estimate.covariance))
     return [
         Parameter(name, unit, float(scale * value), float(scale * error))
@@ -50,7 +50,7 @@ def parameters_of(
 def _names(
     model: ErrorModel, targets: Sequence[str], sockets: Sequence[str], instruments: Sequence[str]
 ) -> Iterator[tuple[str, str, float]]:
-    """Name, unit, and its number in an SI unit, of each parameter."""
+    """The name and unit of each parameter, and the number of these units in an SI unit."""
     arm, frames = model.nominal, model.frames
     links = ["of base", *(f"behind {joint}" for joint in arm.joints[:-1])]
     ends = [f"of target {name}" for name in targets or range(len(frames.targets))]

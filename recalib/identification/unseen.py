@@ -1,8 +1,8 @@
-"""Directions of the geometry that no row shows, though rows in other postures would.
+"""Directions of the geometry that the rows do not determine, although other postures would.
 
-Such are the length of a tool that is always upright, or the height of the base beneath it. An arm
-that is bent shows them a little, after all; but there, a small misfit of another kind moves them by
-decimetres. So what rows say of them is left out, and the prior alone decides: they stay as given.
+Examples are the length of a tool that is always upright, and the height of the base beneath it. A
+bent arm determines them a little, but then a small misfit of another kind moves them by decimetres.
+So the rows' information on them is discarded, and the prior alone decides: they stay at nominal.
 """
 
 from dataclasses import replace
@@ -15,17 +15,18 @@ from recalib.identification.model.linearisation import LEVER, Linearisation
 from recalib.identification.model.observations import Observations
 from recalib.numerics.randomness import generator
 
-# m, rms: what wear of one deviation moves on rows that do not show it, and on those that would
+# m, rms: the motion of the target, for wear of one standard deviation, below which rows do not show
+# a direction, and above which other postures do.
 NOTHING, SOMETHING = 1e-4, 3e-3
-UNKNOWN = 0.1  # of the deviation of an unknown frame: as much as wear
-POSTURES = 40  # all over the joints' ranges
+UNKNOWN = 0.1  # fraction of an unknown frame's deviation that counts as wear
+POSTURES = 40  # random, over the joints' ranges
 
 
 class Unseen:
-    """The directions that observations do not show of an error model, by slopes of the nominal arm.
+    """The directions of an error model that observations do not show, linearised at nominal.
 
     Attributes:
-        directions: (P, k) over the parameters' deviations, of the frames, links and offsets.
+        directions: (P, k) of the frames, links and offsets, over the parameters' deviations.
     """
 
     def __init__(self, model: ErrorModel, observations: Observations):
@@ -42,19 +43,19 @@ class Unseen:
         self._across[columns] = unseen / wear[:, None]
 
     def left_out(self, columns: np.ndarray) -> np.ndarray:
-        """Slopes, or gradients, (..., P) that say nothing of these directions."""
+        """Slopes or gradients (..., P) without their components along these directions."""
         return columns - (columns @ self.directions) @ self._across.T
 
 
 def geometry_of(model: ErrorModel) -> np.ndarray:
-    """The numbers of the parameters of frames, links and offsets that are not held."""
+    """The indices of the parameters of frames, links and offsets that are not held."""
     numbers = np.arange(len(model.deviations))
     numbers = np.concatenate([numbers[: model.optics_columns.start], numbers[model.offset_columns]])
     return numbers[model.deviations[numbers] > HELD]
 
 
 def _slopes(model: ErrorModel, observations: Observations) -> np.ndarray:
-    """Of all that observations measure (m, P) by the parameters over their deviations [m]."""
+    """Slopes (m, P) [m] of all measured quantities by the parameters over their deviations."""
     origin = np.zeros(len(model.deviations))
     jacobians = Linearisation(model, origin, observations).jacobians
     levers = np.array([1, LEVER])[: observations.kinds, None, None, None]
@@ -62,7 +63,7 @@ def _slopes(model: ErrorModel, observations: Observations) -> np.ndarray:
 
 
 def anywhere(model: ErrorModel, observations: Observations, count: int) -> Observations:
-    """So many observations of the same kind, of all targets, all over the joints' ranges."""
+    """`count` observations of the same kind and all targets, at random over the joints' ranges."""
     arm, rng, rows = model.nominal.model, generator(0, "anywhere"), np.arange(count)
     low, high = np.clip([arm.lowerPositionLimit, arm.upperPositionLimit], -np.pi, np.pi)
     others = observations[rows % len(observations)]

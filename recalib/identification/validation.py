@@ -1,6 +1,6 @@
-"""Cross-validated errors of calibrations, and which calibration to use.
+"""Cross-validated errors of calibrations, and the choice among them.
 
-The residuals of the fit do not show it: a Gaussian process interpolates.
+The residuals of the fit do not show the errors: a Gaussian process interpolates.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -30,12 +30,12 @@ from recalib.identification.unseen import Unseen
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
-# Of errors on postures away from those measured, and among them. The first say what a calibration
-# is worth.
+# Held-out errors on postures away from the measured ones, and among them. The first are the
+# accuracy to expect of a calibration.
 BLOCKWISE, RANDOM = WAYS = "in blocks", "at random"
-OUTLYING = 0.1  # the weight of a row below which it is grossly off: ten standard deviations
-CANDIDATES = OFFSETS, JOINT_ERRORS, JOINT_WAVES  # the joint terms that there may be
-SURE = 2.0  # standard errors by which something richer has to be better, to be used
+OUTLYING = 0.1  # rows with less weight are gross outliers: ten standard deviations off
+CANDIDATES = OFFSETS, JOINT_ERRORS, JOINT_WAVES  # the candidate joint terms
+SURE = 2.0  # standard errors by which a richer calibration must be better to be chosen
 
 
 @dataclass(frozen=True)
@@ -43,14 +43,14 @@ class Validation:
     """Held-out errors, and the calibrations from all rows.
 
     Attributes:
-        held_out: by way of folding and by what is corrected. If frames are unknown, the nominal
-            arm's are identified, too, and nothing else is.
-        postures: of all rows.
-        counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
-        lost: by way of folding, (n,) whether the part of a row determines what no other rows do:
-            without it a direction of the geometry is not identifiable, and errors show only that.
-        full: the calibrations from all rows.
-        unsettled: whether there was more than geometry, but its identification did not converge.
+        held_out: by way of folding and by kind of calibration. Unknown frames are identified for
+            the kind "nothing", too, but nothing else is.
+        postures: the postures of all rows.
+        counted: (n,) whether a row counts for the choice and in errors; others are gross outliers.
+        lost: by way of folding, (n,) whether only the fold of a row determines some direction of
+            the geometry: without the fold it is not identifiable, and errors show only that.
+        full: the calibrations from all rows, by kind.
+        unsettled: whether errors beyond geometry were found, but did not converge.
     """
 
     held_out: Mapping[str, Mapping[str, HeldOut]]
@@ -62,53 +62,53 @@ class Validation:
 
     @cached_property
     def chosen(self) -> str:
-        """The simplest of nothing, geometric and hybrid that nothing richer beats for sure.
+        """The simplest kind (nothing, geometric, hybrid) that no richer kind beats significantly.
 
-        On postures away from those learned from.
+        Errors on postures away from the training postures decide.
         """
         judged = self.judged(BLOCKWISE)
-        _, own = np.unique(self.postures.numbers[judged], return_inverse=True)
+        _, posture = np.unique(self.postures.numbers[judged], return_inverse=True)
         losses = {kind: self.held_out[BLOCKWISE][kind][judged].losses for kind in KINDS}
         best, *richer = KINDS
         for kind in richer:
-            # rows of one posture err alike: they are one gain
-            gains = np.bincount(own, losses[best] - losses[kind]) / np.bincount(own)
+            # rows of one posture have correlated errors, so their mean is one gain
+            gains = np.bincount(posture, losses[best] - losses[kind]) / np.bincount(posture)
             if gains.mean() > max(SURE * gains.std(ddof=1) / np.sqrt(len(gains)), LEAST_NOISE):
                 best = kind
         return best
 
     @property
     def calibration(self) -> Calibration:
-        """The one that is chosen."""
+        """The chosen calibration from all rows."""
         return self.full[self.chosen]
 
     def judged(self, way: str) -> np.ndarray:
-        """Rows (n,) whose errors count: all but outliers and rows that are `lost`.
+        """Whether the errors of each row (n,) count: all but outliers and `lost` rows.
 
-        If hardly any part is left, all but outliers count.
+        If fewer than two folds would remain, all but outliers count.
         """
         judged = self.counted & ~self.lost[way]
-        parts = self.held_out[way][NOTHING].folds[judged]
-        return judged if len(np.unique(parts)) > 1 else self.counted
+        folds = self.held_out[way][NOTHING].folds[judged]
+        return judged if len(np.unique(folds)) > 1 else self.counted
 
     def held_out_by(self, way: str, kind: str) -> HeldOut:
-        """The rows whose errors count."""
+        """The held-out residuals of the rows whose errors count."""
         return self.held_out[way][kind][self.judged(way)]
 
     def mean_error(self, way: str, kind: str) -> float:
-        """Of position [m], over the rows that count."""
+        """The mean position error [m] over the rows that count."""
         return float(self.held_out_by(way, kind).errors[:, 0].mean())
 
     @property
     def radius(self) -> float:
-        """Within how much [m] of their predictions 95 % of measured positions lie.
+        """The distance [m] from predictions within which 95 % of measured positions lie.
 
-        For the calibration that is chosen, also in postures away from those measured.
+        It is that of the chosen calibration, and holds in postures away from the measured ones.
         """
         return self.held_out_by(BLOCKWISE, self.chosen).radius()
 
     def coverage(self, way: str) -> float:
-        """The part of held-out positions that lie within such a radius, made without them."""
+        """The fraction of held-out positions within a radius that was computed without them."""
         return self.held_out_by(way, self.chosen).coverage()
 
 
@@ -118,14 +118,14 @@ def validate(
     frames: Frames | None = None,
     on_progress: Callable[[str], None] = lambda text: None,
 ) -> Validation:
-    """Calibrate an arm in several ways, and say what each is worth.
+    """Calibrate an arm in several ways, and cross-validate each.
 
-    The hybrid is geometry with joint errors and a Gaussian process of the residuals, as far as all
-    rows show any. Where rows are held out, all is identified and chosen anew but how smooth the
-    process is. A joint that stood still has no errors: what holds it has them.
+    The hybrid is geometry with joint errors and a Gaussian process of the residuals, if all rows
+    together show either. For each fold, everything is identified and chosen anew, except the
+    process's hyperparameters. A joint that stood still has no errors: its link has them.
 
     Args:
-        frames: at both ends; see `initial_frames` for those that are unknown.
+        frames: the frames at both ends; see `initial_frames` for unknown ones.
         on_progress: called with the current step.
 
     Raises BadMeasurement and Untrustworthy.
@@ -151,7 +151,7 @@ def validate(
     nothing, *candidates = identified([NO_ERRORS, *CANDIDATES], every)
     on_progress("errors beyond geometry")
     best = choose(candidates)
-    if not candidates[best].estimate.converged:  # it has many parameters, and goes on from there
+    if not candidates[best].estimate.converged:  # a model of many parameters needs more steps
         candidates = identified(CANDIDATES, every, candidates[best].estimate)
         best = choose(candidates)
     full = {NOTHING: nothing, GEOMETRIC: candidates[0]}
@@ -162,7 +162,7 @@ def validate(
         full[HYBRID] = hybrid
 
     def without(rows: np.ndarray) -> dict[str, Calibration]:
-        # a model that is not chosen for all rows is not tried on fewer
+        # a richer model than the one chosen for all rows is not tried on fewer rows
         tried = [NO_ERRORS, *CANDIDATES[: 1 + best * (HYBRID in full)]]
         none, *others = identified(tried, ~rows)
         found = {NOTHING: none, GEOMETRIC: others[0], HYBRID: others[choose(others)]}
@@ -182,22 +182,22 @@ def validate(
             for kind, calibration in without(out).items():
                 residuals[kind][out] = calibration.residuals(observations[out])
         held_out[way] = {
-            kind: HeldOut(every, folds, observations.optics, unseen[kind])
-            for kind, every in residuals.items()
+            kind: HeldOut(of_kind, folds, observations.optics, unseen[kind])
+            for kind, of_kind in residuals.items()
         }
         lost[way] = _lost(candidates[0].model, observations, folds)
-    full.setdefault(HYBRID, full[GEOMETRIC])  # there was nothing but geometry
+    full.setdefault(HYBRID, full[GEOMETRIC])  # no errors beyond geometry
     for errors in held_out.values():
         errors.setdefault(HYBRID, errors[GEOMETRIC])
     return Validation(held_out, postures, counted, lost, full, unsettled)
 
 
 def _lost(model: ErrorModel, observations: Observations, folds: np.ndarray) -> np.ndarray:
-    """Whether rows (n,) are in a part without which more directions are open than with it."""
-    opened = Unseen(model, observations).directions.shape[1]
-    parts = [
+    """Whether rows (n,) are in a fold that alone determines some direction of the geometry."""
+    unseen = Unseen(model, observations).directions.shape[1]
+    decisive = [
         fold
         for fold in np.unique(folds)
-        if Unseen(model, observations[folds != fold]).directions.shape[1] > opened
+        if Unseen(model, observations[folds != fold]).directions.shape[1] > unseen
     ]
-    return np.isin(folds, parts)
+    return np.isin(folds, decisive)

@@ -1,4 +1,4 @@
-"""What is computed with: compiled loops, random numbers, regression."""
+"""Numerical tools: compiled loops, monomials, random numbers, regression."""
 
 import lazy_loader
 

@@ -6,19 +6,19 @@ import numpy as np
 
 
 def monomials(points: np.ndarray, degree: int) -> np.ndarray:
-    """The products (..., F) of up to `degree` coordinates of points (..., d), by their degrees."""
+    """The products (..., F) of up to `degree` coordinates of points (..., d), sorted by degree."""
     shorter, last = factors(points.shape[-1], degree)
     products = np.ones((*points.shape[:-1], len(last)))
-    for _ in range(degree):  # each time, those of one more degree are right
+    for _ in range(degree):  # each pass completes the monomials of one more degree
         products[..., 1:] = products[..., shorter[1:]] * points[..., last[1:]]
     return products
 
 
 @cache
 def factors(dimensions: int, degree: int) -> tuple[np.ndarray, np.ndarray]:
-    """Of each monomial but the first, which is 1: the shorter one and the coordinate it is made of.
+    """The factors of each monomial: the monomial of one degree less, and the last coordinate.
 
-    Both are indices (F,), in the order of `monomials`.
+    Both are indices (F,), in the order of `monomials`. Those of the first monomial, 1, are unused.
     """
     shorter, last, before = [0], [0], range(1)
     for _ in range(degree):

@@ -1,46 +1,46 @@
 """Gaussian process regression, for several outputs with one covariance.
 
-The covariance is the sum of a linear trend's, a smooth function with a length along each input, and
-white noise. The outputs are scaled to a deviation of one. The hyperparameters are the logarithms of
-the trend's variance, of the smooth function's, of its lengths and of the noise's variance.
+The covariance is the sum of those of a linear trend, of a smooth function with a length scale along
+each input, and of white noise. The outputs are scaled to a standard deviation of one. The
+hyperparameters are the logarithms of the trend's variance, the smooth function's variance, its
+length scales and the noise's variance.
 """
 
 import numpy as np
 import scipy.linalg
 from scipy.spatial.distance import cdist
 
-VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
+VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # bounds of the hyperparameters
 FIRST_LENGTH = 5.0
-# Where searches start: from one alone, few data may all be taken for noise.
+# The starts of a search: from a single start, a few data may all be mistaken for noise.
 FIRST_NOISES = 1e-3, 1e-1, 1e-6
-FEWEST = 6  # points to judge hyperparameters by
-# Points to judge hyperparameters by: the time grows with their cube, and more add little.
-MOST = 128
+FEWEST = 6  # the least number of points for a search of hyperparameters
+MOST = 128  # points for a search: its time grows with their cube, and more add little
 STEPS = 50  # of a search
-ROUNDING = 10 * np.finfo(float).eps  # an output that deviates by less is constant: not to be scaled
-JITTER = 1e-10  # on the diagonal: exact data leave a matrix that is singular but for rounding
+ROUNDING = 10 * np.finfo(float).eps  # an output that deviates by less is constant and not scaled
+JITTER = 1e-10  # on the diagonal: with exact data, the matrix is numerically singular
 
 
 def is_time_to_search(before: int, points: int) -> bool:
-    """Whether to search hyperparameters anew.
+    """Whether to search for hyperparameters again.
 
-    It is time when the number of points passes a power of two, unless it was `MOST` or more before.
+    It is time when the number of points has passed a power of two, unless it was `MOST` or more.
     """
     return points.bit_length() > before.bit_length() and before < MOST
 
 
 class Process:
-    """A Gaussian process through training data.
+    """A Gaussian process, conditioned on training data.
 
     Args:
         inputs: (n, d), each of the order of one.
         outputs: (n, k), in any unit.
-        hyperparameters: (d + 3,); default: with the largest marginal likelihood.
+        hyperparameters: (d + 3,); default: those of the largest marginal likelihood.
 
     Attributes:
         hyperparameters: (d + 3,) as used.
-        gain: by how much the logarithm of the marginal likelihood exceeds white noise's, less
-            what so many hyperparameters gain by chance (Schwarz's criterion).
+        gain: the log marginal likelihood minus that of white noise, minus the expected gain of so
+            many hyperparameters by chance (Schwarz's criterion).
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class Process:
         return self._mean + (linear + bell) @ self._weights * self._scale
 
     def state(self) -> dict[str, np.ndarray]:
-        """The arguments that make it again, as named arrays."""
+        """The arguments that reproduce the process, as named arrays."""
         return {
             "inputs": self._inputs,
             "outputs": self._outputs,
@@ -81,7 +81,7 @@ def _start(dimensions: int, noise: float = FIRST_NOISES[0]) -> np.ndarray:
 def _covariances(
     hyperparameters: np.ndarray, inputs: np.ndarray, others: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Between points (n, d) and others (m, d): of the trend and of the smooth function (n, m)."""
+    """Covariances (n, m) of trend and smooth function between points (n, d) and others (m, d)."""
     sizes = np.exp(hyperparameters)
     trend, smooth, lengths = sizes[0], sizes[1], sizes[2:-1]
     squares = cdist(inputs / lengths, others / lengths, "sqeuclidean")
@@ -91,12 +91,12 @@ def _covariances(
 def _likelihood(
     hyperparameters: np.ndarray, inputs: np.ndarray, outputs: np.ndarray
 ) -> tuple[float, np.ndarray, tuple[np.ndarray, bool], np.ndarray, np.ndarray]:
-    """The logarithm of the marginal likelihood, and its parts.
+    """The logarithm of the marginal likelihood, and intermediate results.
 
-    Returns also the weights (n, k) of the points, the Cholesky factor of their covariance, and the
-    latter's parts by the trend and by the smooth function.
+    These are the weights (n, k) of the points, the Cholesky factor of their covariance, and the
+    trend's and the smooth function's parts of the covariance.
 
-    Raises LinAlgError where the covariance is singular.
+    Raises LinAlgError if the covariance is singular.
     """
     linear, bell = _covariances(hyperparameters, inputs, inputs)
     noise = (np.exp(hyperparameters[-1]) + JITTER) * np.eye(len(inputs))
@@ -112,11 +112,11 @@ def _loss(
 ) -> tuple[float, np.ndarray]:
     """The negative logarithm of the marginal likelihood, and its gradient (d + 3,).
 
-    The gradient is of tr((k K^-1 - W W') K) / 2 with W the weights, for any hyperparameter of K.
+    Its component for a hyperparameter is tr((k K^-1 - W W') dK) / 2, with the weights W.
     """
     try:
         value, weights, factor, *parts = _likelihood(hyperparameters, inputs, outputs)
-    except np.linalg.LinAlgError:  # no covariance but for rounding
+    except np.linalg.LinAlgError:  # rounding has made the covariance indefinite
         return np.inf, np.zeros_like(hyperparameters)
     inverse = scipy.linalg.cho_solve(factor, np.eye(len(inputs)), check_finite=False)
     by_covariance = outputs.shape[1] * inverse - weights @ weights.T
@@ -129,14 +129,14 @@ def _loss(
 
 
 def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
-    """Hyperparameters of the largest marginal likelihood that searches within the bounds find.
+    """Hyperparameters of the largest marginal likelihood within the bounds, from several searches.
 
-    A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
-    Of too few points, those from which a search starts.
+    A result at a bound (an irrelevant input, no noise) is valid, not a failure. For fewer points
+    than `FEWEST`, the start of a search.
     """
     if len(inputs) < FEWEST:
         return _start(inputs.shape[1])
-    from scipy.optimize import minimize  # a process with hyperparameters need not wait for it
+    from scipy.optimize import minimize  # imported only here: it is slow and not always needed
 
     dimensions = inputs.shape[1]
     bounds = np.log([VARIANCES, VARIANCES, *[LENGTHS] * dimensions, NOISE])

@@ -1,4 +1,4 @@
-"""Arms that move and measure by themselves: a calibration that goes on while it is watched."""
+"""Stations for live calibration: arms that move and measure on command."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""A station that is trusted in nothing: each call has a time limit, each answer is checked."""
+"""A wrapper around an untrusted station: each call has a time limit, each answer is checked."""
 
 import queue
 import threading
@@ -14,26 +14,26 @@ import numpy as np
 from recalib.nominal.kinematics import Arm
 from recalib.station.interface import Station, StationFailed
 
-PATIENCE = 120.0  # s that each call may take: a slow move of all joints, a long exposure
-REACHED = 0.01  # rad, m: how far from its goal a joint may stand
-STILL = 1e-4  # m by which a point on the tool may move while it stands, and while it is measured
-BESIDE = 0.1  # m from the tool link's origin to such a point: a target sits there
-READINGS, APART = 4, 0.05  # of an arm that stands, and s from one to the next
-SETTLING = 5.0  # s within which it has to stand
-STOPPING = 10.0  # s that are given to a stop
+PATIENCE = 120.0  # s, the most for a call: time for a slow move of all joints, a long exposure
+REACHED = 0.01  # rad, m: the tolerance of a joint at its goal
+STILL = 1e-4  # m, the most that a point on the tool may move during a standstill or a measurement
+RADIUS = 0.1  # m from the tool link's origin to such a point, where a target may be mounted
+READINGS, INTERVAL = 4, 0.05  # readings that establish a standstill, and the s between them
+SETTLING = 5.0  # s within which the arm must come to a standstill
+STOPPING = 10.0  # s, the most for a stop
 
 
 class StationRaised(StationFailed):
-    """A station raised an exception of its own: it was not made to fail so."""
+    """A station raised an exception other than StationFailed, which suggests a bug in it."""
 
 
 class Guarded:
-    """A station that `opening` makes, with its joints in the order of the nominal arm's.
+    """The station that `opening` makes, with its joints in the order of the nominal arm.
 
-    All calls but a stop come from one thread, which also opens the station: drivers and graphics
-    may be bound to it. After `stop`, nothing more is asked of it.
+    All calls except a stop come from one thread, which also opens the station, since drivers and
+    graphics may be bound to a thread. After `stop`, the station is not called again.
 
-    Raises StationFailed here and in all methods that call it: its mistake, in a sentence.
+    The constructor and all methods that call the station raise StationFailed, with its mistake.
     """
 
     def __init__(self, opening: Callable[[], Station], arm: Arm):
@@ -52,30 +52,30 @@ class Guarded:
         self._order = [names.index(joint) for joint in joints]
 
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
-        """The lowest and highest angles (joints,) that it allows [rad, m]."""
+        """The lowest and highest joint angles (joints,) [rad, m] that the station allows."""
 
         def both(station: Station) -> tuple[Any, Any]:
-            lower, upper = station.limits  # here, so that the station answers for three
+            lower, upper = station.limits  # unpacked here, so that a mistake is the station's
             return lower, upper
 
-        lower, upper = self._ask("tell its limits", both)
+        lower, upper = self._ask("report its limits", both)
         low, high = self._numbers("lower limits", lower), self._numbers("upper limits", upper)
         if (wrong := low >= high).any():
             joint = self._arm.joints[int(wrong.argmax())]
-            raise StationFailed(f"the station's limits of {joint} are the wrong way round")
+            raise StationFailed(f"the station's lower limit of {joint} is not below its upper one")
         return low, high
 
     def angles(self) -> np.ndarray:
-        """Where it stands: (joints,) rad, m."""
+        """The current joint angles (joints,) [rad, m]."""
         return self._numbers(
-            "angles", self._ask("tell its angles", lambda station: station.angles())
+            "angles", self._ask("report its angles", lambda station: station.angles())
         )
 
     def move(self, goal: np.ndarray, speed: float) -> None:
-        """Move to joint angles (joints,) [rad, m], and wait until it stands there."""
-        own = np.empty_like(goal)
-        own[self._order] = goal
-        self._ask("move", lambda station: station.move(own, speed))
+        """Move to joint angles (joints,) [rad, m], and wait until the arm stands still there."""
+        reordered = np.empty_like(goal)
+        reordered[self._order] = goal
+        self._ask("move", lambda station: station.move(reordered, speed))
         off = np.abs(self._standing() - goal)
         if off.max() > REACHED:
             joint = self._arm.joints[int(off.argmax())]
@@ -84,13 +84,13 @@ class Guarded:
             )
 
     def measure(self) -> tuple[np.ndarray, Mapping[str, float | str] | None]:
-        """Joint angles (joints,) [rad, m] and the measurement there, if the target is seen."""
+        """Joint angles (joints,) [rad, m] and the measurement there; None if no target is seen."""
         angles = self._standing()
         cells = self._ask("measure", lambda station: station.measure())
         if (moved := self._moved([angles, self.angles()])) > STILL:
             raise StationFailed(
-                f"while it was measured, the arm moved its tool by {1e3 * moved:.2g} mm; expected:"
-                f" at most {1e3 * STILL:g} mm"
+                f"during a measurement, the tool moved by {1e3 * moved:.2g} mm; expected: at most"
+                f" {1e3 * STILL:g} mm"
             )
         if cells is None:
             return angles, None
@@ -99,15 +99,15 @@ class Guarded:
         return angles, cells
 
     def stop(self) -> None:
-        """Stop it, once; from then on it refuses all else."""
+        """Stop the station, once; all later calls are refused."""
         if not self._stopped:
             self._stopped = True
             self._at_last(lambda station: station.stop())
 
     def close(self) -> None:
-        """Let go of it: its method `close` is called, if it has one.
+        """Release the station: call its method `close`, if it has one.
 
-        Graphics have to be closed where they were opened: in its own thread, unless that hangs.
+        Graphics must be closed where they were opened, so this happens in its thread if possible.
         """
         self._stopped = True
         if self._station is not None:
@@ -117,9 +117,9 @@ class Guarded:
         self._calls.put(None)
 
     def _at_last(self, do: Callable[[Station], None]) -> None:
-        """Whatever it is doing: from a thread of its own, for a limited time."""
+        """Call the station even if it is busy: from a new thread, for a limited time."""
 
-        def quietly(station: Station) -> None:  # the failure before it is reported
+        def quietly(station: Station) -> None:  # only the failure before this one is reported
             with suppress(Exception):
                 do(station)
 
@@ -143,43 +143,43 @@ class Guarded:
 
     def _ask(self, what: str, call: Callable[..., Any]) -> Any:
         if self._stopped:
-            raise StationFailed(f"the station was stopped; it is not asked to {what}")
+            raise StationFailed(f"the station was stopped, so it cannot {what}")
         answer = self._call(call if self._station is None else partial(call, self._station))
         if not wait([answer], PATIENCE).done:
             self._hangs = True
             raise StationFailed(
-                f"for {PATIENCE:g} s the station has not answered when asked to {what}"
+                f"the station has not answered for {PATIENCE:g} s when asked to {what}"
             )
         error = answer.exception()
         if error is None or isinstance(error, StationFailed):
             return answer.result()
         raise StationRaised(
-            f"asked to {what}, the station raised {type(error).__name__}: {error}"
+            f"when asked to {what}, the station raised {type(error).__name__}: {error}"
         ) from error
 
     def _standing(self) -> np.ndarray:
-        """The angles (joints,) at which some readings agree."""
+        """The joint angles (joints,) at a standstill, when several readings agree."""
         readings, until = [self.angles()], time.monotonic() + SETTLING
         while time.monotonic() < until or len(readings) < READINGS:
-            time.sleep(APART)
+            time.sleep(INTERVAL)
             readings = [*readings[1 - READINGS :], self.angles()]
             if len(readings) == READINGS and self._moved(readings) <= STILL:
                 return readings[-1]
         raise StationFailed(
-            f"{SETTLING:g} s after it should stand, the arm still moves its tool by"
+            f"{SETTLING:g} s after the arm should have stopped, the tool still moves by"
             f" {1e3 * self._moved(readings):.2g} mm; expected: at most {1e3 * STILL:g} mm"
         )
 
     def _moved(self, readings: Sequence[np.ndarray]) -> float:
-        """How far [m] a point near the tool moves between readings (joints,), at most."""
+        """The largest motion [m] of a point near the tool between readings (joints,)."""
         poses = self._arm.forward(np.array(readings))
         gaps = poses[:, None, :3, 3] - poses[:, :3, 3]
         turns = np.linalg.norm(poses[:, None, :3, :3] - poses[:, :3, :3], axis=(2, 3)) / np.sqrt(2)
-        moved: float = (np.linalg.norm(gaps, axis=2) + BESIDE * turns).max()
+        moved: float = (np.linalg.norm(gaps, axis=2) + RADIUS * turns).max()
         return moved
 
     def _numbers(self, name: str, given: Any) -> np.ndarray:
-        """An answer (joints,), in the arm's order."""
+        """The numbers (joints,) in a station's answer, in the order of the arm's joints."""
         try:
             numbers = np.asarray(given, dtype=float)
         except (TypeError, ValueError):

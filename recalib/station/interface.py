@@ -1,4 +1,4 @@
-"""What a program must offer to be calibrated live: move, say where it stands, measure, stop."""
+"""The interface of a station for live calibration: move, report joint angles, measure, stop."""
 
 from collections.abc import Mapping, Sequence
 from typing import Protocol
@@ -10,7 +10,7 @@ from recalib.errors import RecalibError
 
 
 class StationFailed(RecalibError):
-    """A failed station, to which no further move may be sent."""
+    """A failure of a station, to which no further move may be sent."""
 
 
 class Station(Protocol):
@@ -22,7 +22,7 @@ class Station(Protocol):
 
     @property
     def joints(self) -> Sequence[str]:
-        """Names of the joints as in the URDF, in the order of all angles below."""
+        """Names of the joints as in the URDF, in the order of all joint angles below."""
 
     @property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
@@ -34,21 +34,21 @@ class Station(Protocol):
         Args:
             speed: of the fastest joint, as a fraction of its limit, in (0, 1].
 
-        Raises StationFailed: it did not get there, or touched something.
+        Raises StationFailed: the arm did not get there, or touched something.
         """
 
     def angles(self) -> np.ndarray:
         """The encoders' joint angles (joints,) [rad, m]."""
 
     def measure(self) -> Mapping[str, float | str] | None:
-        """A measurement, as cells of a row by their column's heading.
+        """A measurement: the cells of a table's row, by the headings of their columns.
 
-        For instance `x [m]`, `y [m]`, `z [m]` and `qx`, `qy`, `qz`, `qw`, or `picture`, the path of
-        a file. None where it does not see the target. Raises StationFailed.
+        For example `x [m]`, `y [m]`, `z [m]` and `qx`, `qy`, `qz`, `qw`, or `picture`, the path of
+        a file. None if the instrument does not see the target. Raises StationFailed.
         """
 
     def stop(self) -> None:
-        """Stop at once. It raises nothing and may be called repeatedly at any time."""
+        """Stop at once. This method raises nothing and may be called repeatedly at any time."""
 
 
 def cells_of(pose: np.ndarray) -> dict[str, float | str]:

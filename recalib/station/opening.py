@@ -1,6 +1,6 @@
-"""Stations by what stands on the command line: a Python class, or a program of any language.
+"""Opening of the station that the command line names: a Python class, or any program.
 
-A program reads and writes one JSON object a line on its standard streams.
+A program reads and writes one JSON object per line on its standard streams.
 """
 
 import importlib
@@ -22,18 +22,18 @@ import numpy as np
 from recalib.station.interface import Station, StationFailed
 
 _CLASS = re.compile(r"(?P<home>[^\s:]+):(?P<name>\w+)")
-LONGEST = 1_000_000  # letters of an answer
-SHOWN = 80  # letters of an answer that is none
-PATIENCE = 5.0  # s that a program has to end by itself
+LONGEST = 1_000_000  # characters of an answer
+SHOWN = 80  # characters of an invalid answer in a message
+PATIENCE = 5.0  # s, the time for a program to end by itself
 
 
 def open_station(text: str) -> Station:
-    """The station that a text means.
+    """The station that a text names.
 
-    It is `FILE.py:NAME` or `MODULE:NAME`, where NAME is called without arguments; else the command
-    line of a program.
+    The text is `FILE.py:NAME` or `MODULE:NAME`, where NAME is called without arguments; otherwise
+    it is the command line of a program.
 
-    Raises StationFailed: there is none, or it cannot be made.
+    Raises StationFailed: there is no such station, or it cannot be made.
     """
     if not (named := _CLASS.fullmatch(text)):
         try:
@@ -43,19 +43,19 @@ def open_station(text: str) -> Station:
         if not command:
             raise StationFailed("STATION is empty; expected: FILE.py:NAME, or a command line")
         if len(command) == 1 and _lacks_a_name(command[0]):
-            raise StationFailed(f"{text} lacks the NAME of a class; expected: FILE.py:NAME")
+            raise StationFailed(f"{text} has no NAME of a class; expected: FILE.py:NAME")
         return ProgramStation(command)
     try:
         make: Callable[[], Station] = getattr(_module(named["home"]), named["name"])
         return make()
     except StationFailed:
         raise
-    except Exception as error:  # of code that is not ours
+    except Exception as error:  # the user's code may raise anything
         raise StationFailed(f"{text} cannot be made: {type(error).__name__}: {error}") from error
 
 
 def _lacks_a_name(text: str) -> bool:
-    """Whether it is a file of Python, or a module with a colon, and no program."""
+    """Whether a text is a Python file that is no command, or a module with a bare colon."""
     return text.endswith(":") or (text.endswith(".py") and shutil.which(text) is None)
 
 
@@ -67,14 +67,14 @@ def _module(home: str) -> ModuleType:
         raise StationFailed(f"there is no file {home}; expected: FILE.py:NAME")
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec and spec.loader
-    sys.path.insert(0, str(path.parent.resolve()))  # as of a script: it may import its neighbours
+    sys.path.insert(0, str(path.parent.resolve()))  # as for a script: it may import its neighbours
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
 class ProgramStation:
-    """A station in another program, with a line for each request and answer.
+    """A station in another program, with one line for each request and each answer.
 
     Requests are `{"do": "describe"}`, `{"do": "move", "angles": [...], "speed": 0.2}`,
     `{"do": "angles"}` and `{"do": "measure"}`; docs/live.md has the answers. `{"do": "stop"}` comes
@@ -84,7 +84,7 @@ class ProgramStation:
     Args:
         command: the program and its arguments.
 
-    Raises StationFailed: it does not start, or does not describe itself.
+    Raises StationFailed: the program does not start, or does not describe itself.
     """
 
     def __init__(self, command: Sequence[str]):
@@ -97,7 +97,7 @@ class ProgramStation:
                 text=True,
                 encoding="utf-8",
                 errors="replace",
-                # a Ctrl-C in the terminal is for us alone: a program that it ended could not stop
+                # a Ctrl-C must not reach the program, which could then no longer stop the arm
                 start_new_session=True,
             )
         except OSError as error:
@@ -120,11 +120,11 @@ class ProgramStation:
         return cast(Mapping[str, float | str] | None, self._ask("measure", "row")["row"])
 
     def stop(self) -> None:
-        with suppress(OSError, ValueError):  # it has ended, or its input is closed
+        with suppress(OSError, ValueError):  # the program has ended, or its input is closed
             self._send("stop")
 
     def close(self) -> None:
-        """End the program, by the end of its input or else by force."""
+        """End the program by closing its input, or else by force."""
         assert self._process.stdin and self._process.stdout
         with suppress(OSError):
             self._process.stdin.close()
@@ -141,7 +141,7 @@ class ProgramStation:
         self._process.stdin.flush()
 
     def _ask(self, do: str, *keys: str, **more: Any) -> dict[str, Any]:
-        """The answer to a request, which has these keys."""
+        """The answer to a request; StationFailed if it lacks one of the keys."""
         assert self._process.stdout
         try:
             self._send(do, **more)
@@ -157,7 +157,7 @@ class ProgramStation:
         if not isinstance(answer, dict):
             raise StationFailed(
                 f"{self._name} answered {line.strip()[:SHOWN]!r} to {do!r}; expected: a JSON object"
-                " in a line. Messages for people belong on stderr"
+                " on one line. Log messages belong on stderr"
             )
         if "error" in answer:
             raise StationFailed(f"{self._name}: {answer['error']}")

@@ -1,4 +1,4 @@
-"""Poses by pictures of a board, and a station that takes them as one that measures poses."""
+"""Poses from pictures of a board, and the use of a station that takes pictures to measure poses."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -15,17 +15,17 @@ from recalib.vision.detection import FEWEST, Corners, Unusable, find_corners, re
 from recalib.vision.lenses import Lens
 
 PICTURE = "picture"
-WRONG = 5.0  # px by which corners are off: so far, by no lens that is near the true one
+WRONG = 5.0  # px, the median reprojection error from which the lens must be another camera's
 
 
 class BoardInPictures:
-    """A board in the pictures of a camera, each of which is searched once.
+    """The sightings of a board in the pictures of a camera; each picture is searched once.
 
     Attributes:
-        board: which is in them.
-        lens: of the camera, near the true one.
+        board: the board in the pictures.
+        lens: an approximate lens of the camera.
         in_hand: whether the camera is on the hand.
-        tool_radius: m that a board around the tool link's origin takes, however it is turned.
+        tool_radius: m, the radius around the tool link's origin that a board takes in any pose.
     """
 
     def __init__(self, board: Board, lens: Lens, in_hand: bool):
@@ -34,9 +34,9 @@ class BoardInPictures:
         self._sightings: dict[str, views.Sighting] = {}
 
     def search(self, path: str, grey: np.ndarray) -> views.Sighting | None:
-        """The board in a picture (height, width) at a path; None if it is not found.
+        """The sighting of the board in a picture (height, width) at a path; None if not found.
 
-        Raises InvalidFile: the picture cannot have been taken with the lens.
+        Raises InvalidFile: the picture cannot have been taken with this lens.
         """
         try:
             found = find_corners(self.board, grey)
@@ -45,20 +45,20 @@ class BoardInPictures:
         view = self.board, self.lens, found
         off = views.reprojection(*view, views.board_pose(*view))
         if not (typical := float(np.median(np.linalg.norm(off, axis=1)))) < WRONG:
-            reason = f"its corners deviate from the given lens by {typical:.3g} px"
-            raise InvalidFile(path, f"{reason}; is it this camera's?")
+            reason = f"its corners deviate by {typical:.3g} px with the given lens"
+            raise InvalidFile(path, f"{reason}; is the lens that of this camera?")
         corners = views.good_corners(*view)
         return self.add(path, corners) if len(corners.numbers) >= FEWEST else None
 
     def add(self, path: str, corners: Corners) -> views.Sighting:
-        """The board in a picture with these corners."""
+        """The sighting of the board in a picture with these corners, which is stored."""
         self._sightings[path] = views.sighting(self.board, self.lens, corners, True, self.in_hand)
         return self._sightings[path]
 
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
-        """Poses (n, 4, 4) [m], and their information, with the lens to be found.
+        """Poses (n, 4, 4) [m] from pictures, and their information, also on the lens.
 
-        Raises InvalidFile: the board is not in a picture, or its size is not the lens's.
+        Raises InvalidFile: a picture does not show the board, or has another size than the lens.
         """
         for path in paths:
             if path in self._sightings:
@@ -66,25 +66,25 @@ class BoardInPictures:
             try:
                 grey = read_picture(Path(path))
             except Unusable as error:
-                raise InvalidFile(path, f"{error}; its row in the table needs it") from None
+                raise InvalidFile(path, f"{error}; a row of the table refers to it") from None
             if grey.shape[::-1] != self.lens.size or not self.search(path, grey):
                 size = " x ".join(map(str, self.lens.size))
                 reason = f"it does not show the board in {size} pixels"
-                raise InvalidFile(path, f"{reason}, as its row in the table says")
+                raise InvalidFile(path, f"{reason}, although a row of the table refers to it")
         return views.optics_of(self.lens, [self._sightings[path] for path in paths])
 
     def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """See `predicted_views`."""
+        """Predictions for pictures at poses (n, 4, 4) [m]; see `predicted_views`."""
         return views.predicted_views(self.board, self.lens, poses, self.in_hand)
 
 
 class PicturesOfABoard:
-    """The same station, which measures the pose of the board in the camera.
+    """A wrapper around a station with a camera, which measures the pose of the board in the camera.
 
     Args:
-        station: whose `measure` returns `picture`, the path of a file.
-        pictures: what searches it. If the camera is on the hand, its pose in the board is what
-            is measured.
+        station: a station whose `measure` returns `picture`, the path of a file.
+        pictures: the search for the board. If the camera is on the hand, the measurement is the
+            camera's pose in the board.
     """
 
     def __init__(self, station: Station, pictures: BoardInPictures):
@@ -92,13 +92,13 @@ class PicturesOfABoard:
         self._last: np.ndarray = np.zeros(0)
 
     def __getattr__(self, name: str) -> Any:
-        """All else is the station's own."""
+        """All other attributes are those of the station."""
         return getattr(self._station, name)
 
     def measure(self) -> Mapping[str, float | str] | None:
-        """See `Station.measure`: the picture and the pose; None if the board is not found.
+        """The picture and the pose, as in `Station.measure`; None if the board is not found.
 
-        Raises InvalidFile: it is not a picture of this camera.
+        Raises InvalidFile: the file is not a picture from this camera.
         """
         cells = self._station.measure()
         if cells is None:
@@ -112,10 +112,10 @@ class PicturesOfABoard:
             raise InvalidFile(path, str(error)) from None
         if grey.shape[::-1] != (size := self._pictures.lens.size):
             found, valid = (f"{w} x {h}" for w, h in (grey.shape[::-1], size))
-            raise StationFailed(f"{path} has {found} pixels; expected, as by the lens: {valid}")
+            raise StationFailed(f"{path} has {found} pixels; expected: {valid}, as the lens has")
         if (shown := self._pictures.search(path, grey)) is None:
             return None
         if np.array_equal(grey, self._last):
-            raise StationFailed(f"{path} is the same picture as the one before: is it an old one?")
+            raise StationFailed(f"{path} is identical to the previous picture: is it an old one?")
         self._last = grey
         return {PICTURE: path} | cells_of(shown.pose)

@@ -1,1 +1,1 @@
-"""Pictures of a board: the board itself, the lens, and where corners are in pictures."""
+"""Pictures of a board: the board, the lens, and the detection of corners."""

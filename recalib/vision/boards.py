@@ -1,4 +1,4 @@
-"""Boards of markers that a camera can measure, and the TOML that describes them."""
+"""Calibration boards, and the TOML files that describe them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,30 +19,29 @@ from recalib.spelling import listed
 CHARUCO, APRILTAG, APRILGRID = "charuco", "apriltag", "aprilgrid"
 CHESSBOARD, CIRCLES = "chessboard", "circles"
 KINDS = CHARUCO, APRILTAG, APRILGRID, CHESSBOARD, CIRCLES
-PLAIN = CHESSBOARD, CIRCLES  # without markers: they have to be seen as a whole
+PLAIN = CHESSBOARD, CIRCLES  # without markers: pictures must show them as a whole
 SHAPE = "kind", "columns", "rows", "square"
 MARKERS = "marker", "dictionary", "first_id"
 LENGTHS = "square", "marker"
 KALIBR = {"aprilgrid": APRILGRID, "checkerboard": CHESSBOARD, "circlegrid": CIRCLES}
-DICTIONARY = "4X4_100"  # of the boards that we print
-BORDER = 1  # modules of black around the bits of a marker; of Kalibr's, 2
-WHITE = 2  # modules of white in a square, or between tags
-MOST = 100_000  # bytes of a file
-SMALLEST, LARGEST = 1e-3, 1.0  # m, of a square
+DICTIONARY = "4X4_100"  # of our printed boards
+BORDER = 1  # black modules around the bits of a marker; Kalibr's markers have 2
+WHITE = 2  # white modules in a square, or between tags
+MOST = 100_000  # bytes in a file
+SMALLEST, LARGEST = 1e-3, 1.0  # m: limits on the side of a square
 
 
 @dataclass(frozen=True)
 class Board:
-    """A flat board. Its x axis goes along a row and its y axis down, so that z points into it.
+    """A flat board. Its x axis points along a row, its y axis down, and its z axis into the board.
 
     Attributes:
         kind: one of `KINDS`: squares with markers in the white ones, a grid of tags, Kalibr's grid
             of tags with black squares between them, plain squares, an asymmetric grid of circles.
-        columns, rows: of squares, or of tags; of circles, as OpenCV counts them: (4, 11).
-        square: m, the side of a square, or from a tag to the next; from a row of circles to the
-            next.
-        marker: m, the side of a marker; 0 without any.
-        dictionary: OpenCV's name of it, without `DICT_`; empty without markers.
+        columns, rows: numbers of squares or tags; of circles as OpenCV counts them, e.g. (4, 11).
+        square: m, the side of a square, or the pitch of tags or of rows of circles.
+        marker: m, the side of a marker; 0 for boards without markers.
+        dictionary: OpenCV's name of the dictionary, without `DICT_`; empty without markers.
         first_id: the number of the first marker.
     """
 
@@ -55,7 +54,7 @@ class Board:
     first_id: int = 0
 
     def __post_init__(self) -> None:
-        """Raise InvalidSetting unless there can be such a board."""
+        """Raise InvalidSetting if such a board is impossible."""
         if self.kind not in KINDS:
             raise InvalidSetting("kind", self.kind, listed(KINDS, "or"))
         for name in ("columns", "rows"):
@@ -77,22 +76,22 @@ class Board:
             raise InvalidSetting("first_id", self.first_id, f"a whole number from 0 to {most - 1}")
         if self.first_id + self.markers > most:
             found = f"{self.columns} x {self.rows}, with {self.markers} markers"
-            valid = f"at most {most - self.first_id} markers: {self.dictionary} has no more"
+            valid = f"at most {most - self.first_id} markers: {self.dictionary} has {most} in all"
             raise InvalidSetting("columns x rows", found, valid)
 
     @property
     def markers(self) -> int:
-        """How many there are."""
+        """The number of markers."""
         return self.columns * self.rows // (2 if self.kind == CHARUCO else 1)
 
     @property
     def alphabet(self) -> Any:
-        """OpenCV's dictionary of its markers."""
+        """OpenCV's dictionary of the markers."""
         return cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, f"DICT_{self.dictionary}"))
 
     @cached_property
     def drawn(self) -> Any:
-        """OpenCV's own board, of squares or tags."""
+        """OpenCV's object for a board with markers."""
         size, alphabet = (self.columns, self.rows), self.alphabet
         numbers = self.first_id + np.arange(self.markers)
         if self.kind == CHARUCO:
@@ -101,7 +100,7 @@ class Board:
 
     @cached_property
     def points(self) -> np.ndarray:
-        """Where the corners (c, 3) [m] are that are looked for, by their numbers."""
+        """Positions (c, 3) [m] of the points to detect, in the order of their numbers."""
         if self.kind == CHARUCO:
             return np.array(self.drawn.getChessboardCorners(), dtype=float).reshape(-1, 3)
         down, across = np.mgrid[: self.rows, : self.columns]
@@ -125,12 +124,12 @@ class Board:
 
     @property
     def same_upside_down(self) -> bool:
-        """Whether it looks the same after half a turn, which reverses the order of its points."""
+        """Whether the board looks the same after half a turn, which reverses its points' order."""
         return {CHESSBOARD: self.columns + self.rows, CIRCLES: self.rows}.get(self.kind, 1) % 2 == 0
 
     @property
     def modules(self) -> np.ndarray:
-        """Which modules (down, across) are black, if gaps are as wide as two modules."""
+        """A mask (down, across) of the black modules, if gaps are two modules wide."""
         pitch = self.alphabet.markerSize + 2 * BORDER + WHITE
         size = pitch * np.array([self.columns, self.rows])
         if self.kind == APRILTAG:
@@ -139,12 +138,12 @@ class Board:
 
     @property
     def size(self) -> np.ndarray:
-        """Width and height [m]."""
+        """The width and height (2,) [m] of the board."""
         gap = self.square - self.marker if self.kind in (APRILTAG, APRILGRID) else 0.0
         return self.square * np.array([self.columns, self.rows]) - gap
 
     def described(self) -> str:
-        """The part of a TOML that `read_board` reads."""
+        """The board's section of a TOML file, as `read_board` reads it."""
         lengths = {name: f'"{1e3 * getattr(self, name):.6g} mm"' for name in LENGTHS}
         lines = [
             f"{name} = {lengths.get(name) or repr(getattr(self, name))}"
@@ -154,7 +153,7 @@ class Board:
 
 
 def printable(columns: int, rows: int, square: float) -> Board:
-    """A ChArUco board whose markers are of as many modules as its gaps are.
+    """A ChArUco board whose markers and gaps consist of whole modules of equal size.
 
     Raises InvalidSetting.
     """
@@ -164,14 +163,14 @@ def printable(columns: int, rows: int, square: float) -> Board:
 
 
 def read_board(path: str | PathLike[str]) -> Board:
-    """The board in the TOML at `path`, or in Kalibr's YAML. Raises InvalidFile, with the key."""
+    """The board in the TOML, or in Kalibr's YAML, at `path`. Raises InvalidFile, with the key."""
     if Path(path).suffix in (".yaml", ".yml"):
         return _board_of_kalibr(path)
     return board_in(read_toml(path), path)
 
 
 def board_in(parts: Mapping[str, Any], path: str | PathLike[str]) -> Board:
-    """The board in the content of a TOML; its path is for messages. Raises InvalidFile."""
+    """The board in the content of a TOML; `path` is for messages. Raises InvalidFile."""
     given = parts.get("board")
     try:
         plain = isinstance(given, dict) and given.get("kind") in PLAIN
@@ -186,7 +185,7 @@ def board_in(parts: Mapping[str, Any], path: str | PathLike[str]) -> Board:
 
 
 def _board_of_kalibr(path: str | PathLike[str]) -> Board:
-    """The target in a YAML of Kalibr. Raises InvalidFile."""
+    """The board in a YAML file of a Kalibr target. Raises InvalidFile."""
     try:
         given = yaml.safe_load(read_file(path, MOST))
         kind = KALIBR[given["target_type"]]
@@ -201,7 +200,7 @@ def _board_of_kalibr(path: str | PathLike[str]) -> Board:
             raise InvalidFile(path, "its circles are symmetric; expected: an asymmetric grid")
         down, across = float(given["rowSpacingMeters"]), float(given["colSpacingMeters"])
         if down != across:
-            raise InvalidFile(path, f"its fields are {down} x {across} m; expected: squares")
+            raise InvalidFile(path, f"its squares are {down} x {across} m; expected: equal sides")
         return Board(kind, columns + 1, rows + 1, down)  # Kalibr counts corners
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None

@@ -1,4 +1,4 @@
-"""The corners of a board in a picture, or why the picture is of no use."""
+"""Detection of a board's corners in a picture, or the reason why the picture is unusable."""
 
 import warnings
 from dataclasses import dataclass, replace
@@ -13,26 +13,26 @@ from PIL import Image
 from recalib.errors import RecalibError
 from recalib.vision.boards import APRILGRID, CHARUCO, CHESSBOARD, PLAIN, Board
 
-FEWEST, FEWEST_MARKERS = 8, 4  # corners, and markers, to go by
-MISPLACED = 0.3  # of a marker's side: beside a plane by so much, most markers are of another board
+FEWEST, FEWEST_MARKERS = 8, 4  # the least numbers of corners and of markers
+MISPLACED = 0.3  # of a marker's side: larger deviations from a plane mean another board
 OTHERS = "4X4_250", "5X5_250", "6X6_250", "APRILTAG_36H11"
-DRAWN = 64  # px, of a square in a drawing
-HALF = 0.5  # px: this refinement counts from the corner of a picture, not from its first pixel
-MANY = 3  # markers of another dictionary that are no chance
-AROUND = 15  # px about an edge: where it is dark, bright and steepest
-BLURRED = 0.75  # a quantile of edges: motion leaves those along it sharp
-CLEAR = 0.7  # of the highest contrast: so high it is about the edges to look at
+DRAWN = 64  # px, the side of a square in a drawing
+HALF = 0.5  # px: this refinement's origin is the picture's corner, not the first pixel's centre
+MANY = 3  # markers of another dictionary: more are not false detections
+AROUND = 15  # px, the window around an edge for its darkest, brightest and steepest pixels
+BLURRED = 0.75  # quantile of the edges' widths: motion blur leaves edges along it sharp
+CLEAR = 0.7  # the least contrast of an edge, relative to the highest in the picture
 SMOOTHED = 1.0  # px, against noise
-SOFT = 1.3  # px: a picture that is softer may show nothing because it is blurred
-SMALLEST, LARGEST = 32, 100_000_000  # px: the shorter side of a picture; all of it
-KALIBR_BORDER = 2  # modules of black around the bits of Kalibr's tags
+SOFT = 1.3  # px: blur that may be the reason why nothing is found
+SMALLEST, LARGEST = 32, 100_000_000  # px: the least side, the most pixels in all
+KALIBR_BORDER = 2  # black modules around the bits of Kalibr's tags
 NEAR = 0.25  # of a tag's side: the window in which its corners are refined
-WINDOWS = 2, 8  # px, either way
+WINDOWS = 2, 8  # px: limits on half the width of this window
 REFINED = cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 50, 1e-3
 
 
 class Unusable(RecalibError):
-    """A picture in which the board was not found as it should be."""
+    """A picture in which the board was not found properly."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,8 @@ class Corners:
     """Corners in a picture.
 
     Attributes:
-        numbers: (c,) which of the board's points.
-        pixels: (c, 2) from the middle of the upper left pixel, to the right and down.
+        numbers: (c,) the indices of the corners among the board's points.
+        pixels: (c, 2) px to the right and down, from the centre of the upper left pixel.
         softness: px, the standard deviation of the blur along edges.
     """
 
@@ -51,21 +51,21 @@ class Corners:
 
 
 def read_picture(path: Path) -> np.ndarray:
-    """A file's grey picture (height, width) as the sensor has it. Raises Unusable.
+    """A file's grey picture (height, width), in the sensor's orientation. Raises Unusable.
 
-    A phone on the hand records in its files how it was held, and viewers turn them by that. Its
-    lens does not turn with them.
+    Phones record in their files how they were held, and viewers rotate the pictures accordingly.
+    The lens does not rotate with them.
     """
     try:
         if not path.is_file():
             raise Unusable("there is no such file")
-        with warnings.catch_warnings(action="ignore"), Image.open(path) as image:  # its head alone
+        with warnings.catch_warnings(action="ignore"), Image.open(path) as image:  # the header only
             width, height = image.size
     except (OSError, ValueError, Image.DecompressionBombError) as error:
         large = isinstance(error, Image.DecompressionBombError)
         raise Unusable("it is too large" if large else "it is not a picture") from None
     if min(width, height) < SMALLEST or width * height > LARGEST:
-        valid = f"at least {SMALLEST} x {SMALLEST}, and {LARGEST / 1e6:.0f} million in all at most"
+        valid = f"at least {SMALLEST} x {SMALLEST}, and at most {LARGEST / 1e6:.0f} million in all"
         raise Unusable(f"it has {width} x {height} pixels; expected: {valid}")
     picture = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
     if picture is None:
@@ -87,7 +87,7 @@ def find_corners(board: Board, picture: np.ndarray) -> Corners:
             why = f"; it is blurred, by {blur:.1f} px or more" if blur > SOFT else ""
             raise Unusable(f"it does not show all {len(board.points)} {what}{why}")
     elif board.kind == CHARUCO:
-        layouts = [board.drawn, replace(board).drawn]  # OpenCV's own, and that before its 4.6
+        layouts = [board.drawn, replace(board).drawn]  # OpenCV's current one, and that before 4.6
         layouts[1].setLegacyPattern(True)
         numbers, pixels, problem = min(
             (_charuco(board, layout, picture) for layout in layouts[: 2 - board.rows % 2]),
@@ -104,7 +104,7 @@ def find_corners(board: Board, picture: np.ndarray) -> Corners:
     if len(numbers) < FEWEST:
         raise Unusable(f"it shows {len(numbers)} corners; expected: at least {FEWEST}")
     if are_on_a_line(board, numbers):
-        raise Unusable("its corners lie on a line; expected: some beside it")
+        raise Unusable("its corners lie on a line; expected: corners that span an area")
     pixels = pixels.astype(float)
     (left, top), (right, bottom) = pixels.min(axis=0).astype(int), pixels.max(axis=0).astype(int)
     top, left = max(0, top), max(0, left)
@@ -114,9 +114,9 @@ def find_corners(board: Board, picture: np.ndarray) -> Corners:
 def _charuco(
     board: Board, layout: Any, picture: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, str | None]:
-    """Numbers (c,) and pixels (c, 2) of corners by one of the layouts, and a problem of markers."""
+    """Numbers (c,) and pixels (c, 2) of corners in a layout, and the markers' problem, if any."""
     settings = cv2.aruco.CharucoParameters()
-    settings.tryRefineMarkers = True  # by where the others are: it finds more if out of focus
+    settings.tryRefineMarkers = True  # searches around other markers: finds more when out of focus
     corners, numbers, *found = cv2.aruco.CharucoDetector(layout, settings).detectBoard(picture)
     places = np.array(layout.getObjPoints())[..., :2]
     problem = _problem(board, places, *_as_arrays(found[0], found[1]))
@@ -127,9 +127,9 @@ def _charuco(
 
 @cache
 def charuco_offset() -> np.ndarray:
-    """px (2,) by which OpenCV's corners of such boards lie to the right and below.
+    """The offset (2,) [px], to the right and down, of OpenCV's corners of ChArUco boards.
 
-    That is half a pixel in OpenCV 4.10, and nothing from 4.14 on: it is measured on a drawn board.
+    It is half a pixel in OpenCV 4.10, and zero from 4.14 on, so it is measured on a drawn board.
     """
     alphabet = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
     board = cv2.aruco.CharucoBoard((4, 3), DRAWN, DRAWN * 0.75, alphabet)
@@ -140,31 +140,31 @@ def charuco_offset() -> np.ndarray:
 
 
 def are_on_a_line(board: Board, numbers: np.ndarray) -> bool:
-    """Whether no corner (c,) lies beside the line through others: they determine no pose."""
+    """Whether all corners (c,) lie on one line, so that they do not determine a pose."""
     points = board.points[numbers]
     return bool(np.linalg.matrix_rank(points - points.mean(axis=0), tol=board.square / 10) < 2)
 
 
 def _problem(board: Board, places: np.ndarray, markers: np.ndarray, ids: np.ndarray) -> str | None:
-    """What is wrong with markers, if anything is, by their places (m, 4, 2) [m] on the board."""
+    """A problem of the detected markers, if any, given all places (m, 4, 2) [m] on the board."""
     if len(ids) < FEWEST_MARKERS:
         return f"it shows {len(ids)} markers of the board; expected: at least {FEWEST_MARKERS}"
     if len(np.unique(ids)) < len(ids):
         twice = next(number for number in ids if (ids == number).sum() > 1)
-        return f"marker {twice} appears more than once: a second board, or two exposures"
+        return f"marker {twice} appears more than once: a second board, or a double exposure"
     numbers = ids - board.first_id
     if numbers.min() < 0 or numbers.max() >= board.markers:
         outside = ids[(numbers < 0) | (numbers >= board.markers)].max()
-        return f"marker {outside} is not on the board: this is another one, or has another first_id"
+        return f"marker {outside} is not on the board: another board, or another first_id"
     if _misplaced(places[numbers], markers) > MISPLACED:
-        return "markers are not where the board has them: this is another one"
+        return "markers are not at their places on the board: this is another board"
     return None
 
 
 def _mistake(board: Board, picture: np.ndarray) -> str | None:
-    """A mistake that explains why the board was not found."""
+    """A user's mistake or a blur that explains why the board was not found."""
     if _problem(board, board.tags, *_markers(board, cv2.flip(picture, 1))) is None:
-        return "it is mirrored; try: the camera's own picture"
+        return "it is mirrored; try: the camera's original picture"
     for name in OTHERS:
         if board.dictionary.startswith(name[:4]):
             continue
@@ -200,7 +200,7 @@ def _as_arrays(corners: Any, ids: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _softness(picture: np.ndarray) -> float:
-    """The blur [px] that makes the edges of the highest contrast as flat as they are."""
+    """The standard deviation [px] of the blur, from the widths of the edges of highest contrast."""
     smooth = cv2.GaussianBlur(picture.astype(np.float32), (0, 0), SMOOTHED)
     window = np.ones((AROUND, AROUND))
     contrast = cv2.dilate(smooth, window) - cv2.erode(smooth, window)
@@ -214,7 +214,7 @@ def _softness(picture: np.ndarray) -> float:
 def _pattern(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Numbers (c,) and pixels (c, 2) of all corners of a chessboard, or of all circles.
 
-    None unless all of them are found.
+    Both are empty if not all of them are found.
     """
     if board.kind == CHESSBOARD:
         return _chessboard(board, picture)
@@ -227,10 +227,10 @@ def _pattern(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 
 
 def _chessboard(board: Board, picture: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Corners from the upper left one, by a square's colour if that decides.
+    """Numbers and pixels of corners, from the upper left one, which the squares' colours determine.
 
-    A board with an even number of columns and an odd one of rows, or the other way around, has one
-    upper left corner that is dark. Another board looks the same upside down: it counts as upright.
+    If either columns or rows (not both) are even in number, only one of two opposite corners is
+    dark: the upper left one. Any other board looks the same upside down, and counts as upright.
     """
     columns, rows = board.columns - 1, board.rows - 1
     flags = cv2.CALIB_CB_EXHAUSTIVE + cv2.CALIB_CB_ACCURACY + cv2.CALIB_CB_NORMALIZE_IMAGE
@@ -266,12 +266,12 @@ def _refined_as_kalibr(
     if not len(numbers) or not known.all():
         return markers
     places = board.tags[numbers - board.first_id]
-    turned = [np.roll(markers, step, axis=1) for step in range(4)]  # prints differ in how tags lie
-    return min(turned, key=lambda each: _misplaced(places, each))
+    turned = [np.roll(markers, step, axis=1) for step in range(4)]  # prints differ in tag rotation
+    return min(turned, key=lambda corners: _misplaced(places, corners))
 
 
 def _misplaced(places: np.ndarray, markers: np.ndarray) -> float:
-    """How far markers (m, 4, 2) [px] are from where a plane has them, in sides of theirs."""
+    """The deviation of markers (m, 4, 2) [px] from a plane with these places, over their sides."""
     plane, _ = cv2.findHomography(places.reshape(-1, 2), markers.reshape(-1, 2), cv2.LMEDS)
     if plane is None:
         return np.inf

@@ -1,8 +1,8 @@
-"""The lens by pictures of a board anywhere: its model, chosen by evidence, and its parameters.
+"""Calibration of a lens from pictures of boards in any pose: its model and its parameters.
 
-Poses of the board are not unknowns of the search: for each lens, each has its best pose. So the
-normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and
-their step gives the distance from the end of the search, in standard deviations.
+The evidence selects the model. The poses of the board are not unknowns of the search: for each
+lens, each picture has its best pose. So only the normal equations of the lens remain (variable
+projection, Golub and Pereyra 1973). Their step is the distance to the optimum, in deviations.
 """
 
 from collections.abc import Sequence
@@ -18,25 +18,25 @@ from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, optics_kinds, reprojection, sighting
 
-View = tuple[Board, Corners]  # what a picture shows
-FEWEST = 6  # pictures, to know a lens by
-# How many coefficients of distortion a pinhole may have, the simplest first. A fisheye has 4.
+View = tuple[Board, Corners]  # the board in a picture, and its detected corners
+FEWEST = 6  # the least number of pictures to calibrate a lens from
+# Numbers of distortion coefficients of pinhole models, the simplest first. A fisheye has 4.
 PINHOLES = 4, 5, 8
-FOCAL_LENGTHS = 0.25, 0.4, 0.6, 0.9, 1.3, 2.0, 3.5  # over the larger side, to start from
+FOCAL_LENGTHS = 0.25, 0.4, 0.6, 0.9, 1.3, 2.0, 3.5  # starting values, over the larger side
 STEPS, DAMPING, STIFFEST = 60, 1e-3, 1e9
-CONVERGED = 0.01  # standard deviations from the end of the search
+CONVERGED = 0.01  # standard deviations from the optimum
 LEAST_NOISE = 1e-6  # px
 
 
 @dataclass(frozen=True)
 class FoundLens:
-    """A lens by pictures.
+    """A lens calibrated from pictures.
 
     Attributes:
-        lens: as found.
-        error: px, the root mean square of what remains along an axis, over the degrees of freedom.
-        evidence: the logarithm of the model's, by Schwarz' criterion, up to a constant.
-        converged: whether the search came to its end.
+        lens: the lens.
+        error: px, the rms reprojection error along an axis, over the degrees of freedom.
+        evidence: the log evidence of the model, by Schwarz's criterion, up to a constant.
+        converged: whether the search converged.
         deviations: (2,) px, standard deviations of the focal lengths along x and y.
     """
 
@@ -48,10 +48,10 @@ class FoundLens:
 
 
 def find_lens(views: Sequence[View], size: tuple[int, int]) -> FoundLens:
-    """The lens by the pictures (at least `FEWEST`) of boards anywhere.
+    """The lens from pictures (at least `FEWEST`) of boards in any pose.
 
-    A richer model has to be far more probable than a simpler one, to be chosen, and so does a
-    fisheye. They are tried only if a simpler pinhole leaves residuals that they could explain.
+    A richer model, or a fisheye, is chosen only if it is far more probable than a simpler model. It
+    is tried only if the simpler pinhole leaves residuals that a richer model could explain.
     """
     best = last = _best_from(views, _straight(views, size, False))
     for count in PINHOLES[1:]:
@@ -63,27 +63,27 @@ def find_lens(views: Sequence[View], size: tuple[int, int]) -> FoundLens:
 
 
 def _extended(lens: Lens, count: int) -> Lens:
-    """The same lens with as many coefficients of distortion."""
+    """The same lens with `count` distortion coefficients, the new ones zero."""
     return replace(lens, distortion=np.resize([*lens.distortion, *np.zeros(count)], count))
 
 
 def _more_probable(simpler: FoundLens, richer: FoundLens) -> FoundLens:
-    further = len(richer.lens.distortion)
+    added = len(richer.lens.distortion)
     if simpler.lens.fisheye == richer.lens.fisheye:
-        further -= len(simpler.lens.distortion)
+        added -= len(simpler.lens.distortion)
     gain = richer.evidence - simpler.evidence
-    probable = gain > CONVINCING * np.sqrt(further)
+    probable = gain > CONVINCING * np.sqrt(added)
     return richer if probable and richer.converged >= simpler.converged else simpler
 
 
 class _Normal(NamedTuple):
-    """The best poses of the board by a lens, and the normal equations of the lens at them.
+    """The best poses of the boards for a lens, and the normal equations of the lens there.
 
     Attributes:
-        poses: (4, 4) m of the board in the camera, in each picture.
+        poses: (4, 4) m, the pose of the board in the camera, for each picture.
         squares: px^2, the sum of squared reprojection errors.
-        free: how many of these the poses do not make up for.
-        information, gradient: (k, k) and (k,), by the parameters of the lens [px, 1].
+        free: the degrees of freedom that the poses leave.
+        information, gradient: (k, k) and (k,), of the parameters of the lens [px, 1].
     """
 
     poses: list[np.ndarray]
@@ -94,12 +94,12 @@ class _Normal(NamedTuple):
 
     @property
     def variance(self) -> float:
-        """px^2, of the noise along an axis."""
+        """The variance [px^2] of the noise along an axis."""
         return max(self.squares / (self.free - len(self.gradient)), LEAST_NOISE**2)
 
 
 def _straight(views: Sequence[View], size: tuple[int, int], fisheye: bool) -> Lens:
-    """The best of a few lenses that look straight ahead, without distortion."""
+    """The best of a few lenses with a central principal point and no distortion."""
     some = slice(None, None, max(1, len(views) // FEWEST))
     x, y = (side / 2 - 0.5 for side in size)
     lenses = [
@@ -110,12 +110,12 @@ def _straight(views: Sequence[View], size: tuple[int, int], fisheye: bool) -> Le
 
 
 def _best_from(views: Sequence[View], lens: Lens) -> FoundLens:
-    """The best lens of its model, by Levenberg's and Marquardt's steps from one nearby."""
+    """The best lens of the same model, by Levenberg-Marquardt steps from a lens nearby."""
     here, damping, converged = _normal(views, lens), DAMPING, False
     for _ in range(STEPS):
         precision = _precision(lens, here)
-        whole = np.linalg.solve(precision, here.gradient)
-        if converged := bool(here.gradient @ whole < CONVERGED**2 * here.variance):
+        full_step = np.linalg.solve(precision, here.gradient)
+        if converged := bool(here.gradient @ full_step < CONVERGED**2 * here.variance):
             break
         damped = precision + damping * np.diag(precision.diagonal())
         moved = moved_lens(lens, np.linalg.solve(damped, here.gradient))
@@ -134,7 +134,7 @@ def _best_from(views: Sequence[View], lens: Lens) -> FoundLens:
 
 
 def _gain(views: Sequence[View], lens: Lens) -> float:
-    """How much more probable the best lens of this model is, about, than this one."""
+    """The approximate gain in log evidence from this lens to the best lens of its model."""
     here = _normal(views, lens)
     step = np.linalg.solve(_precision(lens, here), here.gradient)
     return float(here.gradient @ step / here.variance - np.log(here.free)) / 2
@@ -143,30 +143,30 @@ def _gain(views: Sequence[View], lens: Lens) -> float:
 def _normal(views: Sequence[View], lens: Lens, starts: Sequence[np.ndarray | None] = ()) -> _Normal:
     pairs = zip(views, starts or [None] * len(views), strict=True)
     sightings = [sighting(board, lens, view, True, False, at) for (board, view), at in pairs]
-    own = slice(len(BOARD), None)
+    of_lens = slice(len(BOARD), None)
     return _Normal(
         [one.pose for one in sightings],
         sum(one.squares for one in sightings),
         sum(one.free for one in sightings),
-        np.sum([one.information[own, own] for one in sightings], axis=0),
-        np.sum([one.gradient[own] for one in sightings], axis=0),
+        np.sum([one.information[of_lens, of_lens] for one in sightings], axis=0),
+        np.sum([one.gradient[of_lens] for one in sightings], axis=0),
     )
 
 
 def _precision(lens: Lens, found: _Normal) -> np.ndarray:
-    """The information (k, k) of pictures on a lens, with the prior of any lens."""
+    """The information (k, k) on a lens, from the pictures and the prior."""
     prior = np.array([unit * spread for _, _, unit, spread in OPTICS])[optics_kinds(lens)]
     return found.information + np.diag(found.variance / prior**2)
 
 
 def reprojection_error(views: Sequence[View], lens: Lens) -> float:
-    """What a lens leaves in pictures [px], like `FoundLens.error`; infinite if it sees nothing."""
+    """The rms reprojection error [px], as `FoundLens.error`; infinite if it cannot see corners."""
     free = sum(2 * len(view.numbers) - 6 for _, view in views)
     return float(np.sqrt(_squares(lens, views) / free))
 
 
 def _squares(lens: Lens, views: Sequence[View], starts: Sequence[np.ndarray | None] = ()) -> float:
-    """The sum [px^2] of what remains by a lens; infinite if it cannot see the corners."""
+    """The sum [px^2] of squared reprojection errors; infinite if a lens cannot see the corners."""
     total = 0.0
     for (board, view), start in zip(views, starts or [None] * len(views), strict=True):
         pose = board_pose(board, lens, view, start)
@@ -177,7 +177,7 @@ def _squares(lens: Lens, views: Sequence[View], starts: Sequence[np.ndarray | No
 
 
 def moved_lens(lens: Lens, step: np.ndarray) -> Lens | None:
-    """The lens that differs by a step of its parameters (k,); None if there is none."""
+    """The lens after a step of its parameters (k,); None if a focal length is not positive."""
     fx, fy, cx, cy, *distortion = step
     matrix = lens.matrix + np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 0]])
     if min(matrix[0, 0], matrix[1, 1]) <= 0:

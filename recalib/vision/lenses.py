@@ -1,4 +1,4 @@
-"""A lens: how directions become pixels. Read from files of ROS, OpenCV, Kalibr and RealSense."""
+"""Lenses: camera intrinsics and distortion, in the files of ROS, OpenCV, Kalibr and RealSense."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -12,31 +12,31 @@ import yaml
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 
-MOST = 100_000  # bytes of a file
-FISHEYE = "equidistant"  # ROS' name for OpenCV's fisheye
-MODELS = {"plumb_bob": 5, "rational_polynomial": 8, FISHEYE: 4}  # numbers of distortion in a file
-# As files of a calibration have them, and messages: `ros2 topic echo --once .../camera_info`.
+MOST = 100_000  # bytes in a file
+FISHEYE = "equidistant"  # ROS's name for OpenCV's fisheye
+MODELS = {"plumb_bob": 5, "rational_polynomial": 8, FISHEYE: 4}  # distortion numbers in a file
+# The keys in calibration files and in messages (`ros2 topic echo --once .../camera_info`).
 MATRICES = "camera_matrix", "k", "K"
 DISTORTIONS = "distortion_coefficients", "dist_coeffs", "distCoeffs", "d", "D"
-OF_OPENCV = re.compile(r"!!opencv-[\w-]+")  # a tag, which other readers do not know
+OF_OPENCV = re.compile(r"!!opencv-[\w-]+")  # a tag that other YAML readers do not know
 SIZES = ("image_width", "image_height"), ("width", "height")
-# models of Kalibr and RealSense; of the inverse one of RealSense, coefficients have to be zero
+# Models of Kalibr and RealSense. RealSense's inverse model is valid only if all coefficients are 0.
 OTHERS = {"radtan": "plumb_bob", FISHEYE: FISHEYE, "none": "plumb_bob"}
 OTHERS |= {"brown conrady": "plumb_bob", "kannala brandt4": FISHEYE}
 REALSENSE = "fx", "fy", "ppx", "ppy"
-# focal lengths over the larger side of a picture: from a fisheye to a telescope
+# Limits on focal lengths over the larger side of a picture: from a fisheye to a telescope.
 LONGEST = 0.05, 50.0
 
 
 @dataclass(frozen=True)
 class Lens:
-    """A pinhole with distortion, or a fisheye, as OpenCV has them.
+    """OpenCV's pinhole with distortion, or its fisheye.
 
     Attributes:
-        size: of a picture, width and height [px].
-        matrix: (3, 3) px.
-        distortion: (4,), (5,) or (8,) k1, k2, p1, p2, k3, ...; k1 to k4 of a fisheye.
-        fisheye: whether it is one.
+        size: the width and height of a picture [px].
+        matrix: (3, 3) px, the camera matrix.
+        distortion: (4,), (5,) or (8,) k1, k2, p1, p2, k3, ...; for a fisheye, k1 to k4.
+        fisheye: whether the model is a fisheye.
     """
 
     size: tuple[int, int]
@@ -46,13 +46,13 @@ class Lens:
 
     @property
     def model(self) -> str:
-        """ROS' name of the model."""
+        """ROS's name of the model."""
         if self.fisheye:
             return FISHEYE
         return "plumb_bob" if len(self.distortion) <= MODELS["plumb_bob"] else "rational_polynomial"
 
     def as_ros(self) -> str:
-        """ROS' camera_info."""
+        """The lens as the YAML of ROS's camera_info."""
         (fx, _, cx), (_, fy, cy) = self.matrix[:2]
         distortion = np.zeros(MODELS[self.model])
         distortion[: len(self.distortion)] = self.distortion
@@ -71,7 +71,7 @@ class Lens:
 
 
 def read_lens(path: str | PathLike[str]) -> Lens:
-    """The lens in the YAML or JSON at `path`, without coefficients that are zero at the end.
+    """The lens in the YAML or JSON at `path`, without trailing coefficients that are zero.
 
     Raises InvalidFile.
     """
@@ -120,7 +120,7 @@ def read_lens(path: str | PathLike[str]) -> Lens:
 
 
 def _as_ros(tree: Mapping[str, Any]) -> Mapping[str, Any]:
-    """A lens of Kalibr or RealSense, as ROS has it; all else as it is.
+    """The content of a file of Kalibr or RealSense with ROS's keys; other content unchanged.
 
     Raises KeyError, TypeError, ValueError.
     """
@@ -151,7 +151,7 @@ def _as_ros(tree: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def _numbers(tree: Mapping[str, object], names: Sequence[str]) -> np.ndarray:
-    """The numbers (n,) of a matrix of one of these names; none where it has other things."""
+    """The numbers (n,) of the matrix with one of these names; empty if they are not numbers."""
     found = next((tree[name] for name in names if name in tree), ())
     try:
         return np.asarray(found["data"] if isinstance(found, dict) else found, float).ravel()

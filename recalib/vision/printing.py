@@ -1,4 +1,4 @@
-"""A board on paper: at true size, with a bar to check the printer by."""
+"""Drawing of a board at true size, with a bar to check the printer's scale."""
 
 from io import BytesIO
 
@@ -10,15 +10,15 @@ from matplotlib.path import Path as Outline
 from recalib.vision.boards import Board
 
 PAPERS = {"A4": (297, 210), "A3": (420, 297), "A2": (594, 420), "A1": (841, 594), "A0": (1189, 841)}
-MARGIN, FOOT = 8.0, 13.0  # mm about the board, and below it for the bar
+MARGIN, FOOT = 8.0, 13.0  # mm around the board, and below it for the bar
 BAR = 100.0  # mm
 INCH = 25.4  # mm
 
 
 def draw_board(board: Board, *formats: str) -> tuple[list[bytes], tuple[float, float], float]:
-    """A board at true size in formats such as pdf and svg, the paper's size, and a bar's [mm].
+    """A board at true size in formats such as pdf and svg; the sizes [mm] of the paper and the bar.
 
-    The paper is the smallest sheet in landscape that is wide enough.
+    The paper is the smallest large enough sheet, in landscape format.
     """
     size = 1e3 * board.size
     least = np.add(size, (2 * MARGIN, 2 * MARGIN + FOOT))
@@ -32,11 +32,11 @@ def draw_board(board: Board, *formats: str) -> tuple[list[bytes], tuple[float, f
     foot = MARGIN + size[1] + FOOT / 2
     bar = np.array([[0, 0], [BAR, 0], [BAR, 2], [0, 2]]) + np.array([left, foot])
     for corners in (black, bar[None]):
-        # one outline: between shapes that touch, viewers would show a seam
+        # one outline, since viewers would show seams between separate shapes that touch
         outline = Outline.make_compound_path_from_polys(corners)
         page.add_patch(PathPatch(outline, color="black", linewidth=0))
     text = (
-        f"This bar is {BAR:g} mm long, or the printer scales. {board.kind}"
+        f"This bar is {BAR:g} mm long unless the printer scaled it. {board.kind}"
         f" {board.columns} x {board.rows}, {1e3 * board.square:g} mm, {board.dictionary}"
     )
     page.text(left, foot + 6, text, fontsize=8)
@@ -48,7 +48,7 @@ def draw_board(board: Board, *formats: str) -> tuple[list[bytes], tuple[float, f
 
 
 def _outline(black: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Corners (run, 4, 2) [mm] of the runs of black modules in each line."""
+    """Corners (run, 4, 2) [mm] of the horizontal runs of black modules."""
     edges = np.diff(np.pad(black.astype(int), ((0, 0), (1, 1))), axis=1)
     (line, start), (_, end) = np.nonzero(edges == 1), np.nonzero(edges == -1)
     corners = np.stack([[start, line], [end, line], [end, line + 1], [start, line + 1]])

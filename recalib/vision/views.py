@@ -1,9 +1,10 @@
-"""From corners in pictures to a lens, poses, and what the corners say of lens, board and poses.
+"""Poses from corners in pictures, and the corners' information on poses, lens and board.
 
-Near the best poses and lens, the squares of all reprojection errors are a sum of two parts: of what
-moves each pose from its best, as sure as its corners make it, and of what moves the lens from its
-best with all poses free. So an identification from poses with these weights, in which lens and
-board are parameters, too, is one from pixels: its normal equations are the same.
+Near the best poses and lens, the sum of squared reprojection errors has two parts: one in the
+displacement of each pose from its best, weighted by the information of its corners; and one in the
+displacement of the lens from its best, with all poses free. So an identification from poses with
+these weights, in which lens and board are parameters, too, has the normal equations of one from
+pixels.
 """
 
 from collections.abc import Sequence
@@ -18,15 +19,15 @@ from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens
 
-FAR = 4.0  # standard deviations: a corner farther out is no part of the board
-NARROW = 12.0  # px of a marker's shorter side: if it has less, hardly half of them are found
-STEPS, SMALL = 30, 1e-9  # of a search for a pose; m, rad
+FAR = 4.0  # medians of the reprojection error: corners farther off are false detections
+NARROW = 12.0  # px, the shorter side of a marker: if it is less, hardly half of them are found
+STEPS, SMALL = 30, 1e-9  # of a search for a pose; the step [m, rad] at which it has converged
 STRAIGHT = 4  # parameters of a lens without distortion: focal lengths and principal point
-RADIAL = [0, 1, 4, 5]  # which of OpenCV's coefficients of a pinhole are like those of a fisheye
+RADIAL = [0, 1, 4, 5]  # OpenCV's pinhole coefficients that correspond to those of a fisheye
 
 
 def optics_kinds(lens: Lens) -> np.ndarray:
-    """Which of `OPTICS` the parameters (k,) of a lens are: focal lengths, and what follows."""
+    """The index (k,) in `OPTICS` of each parameter of a lens, from the focal lengths on."""
     count = len(lens.distortion)
     coefficients = RADIAL if lens.fisheye else [*range(count)]
     return len(BOARD) + np.array([*range(STRAIGHT), *(STRAIGHT + n for n in coefficients)])
@@ -35,10 +36,10 @@ def optics_kinds(lens: Lens) -> np.ndarray:
 def board_pose(
     board: Board, lens: Lens, view: Corners, start: np.ndarray | None = None
 ) -> np.ndarray:
-    """The pose (4, 4) [m] of the board in the camera: the camera's z axis goes into the picture.
+    """The pose (4, 4) [m] of the board in the camera, whose z axis points into the picture.
 
-    It is that at which the corners are nearest to where they should be; without numbers by a lens
-    that cannot see them. To start from a pose nearby saves time.
+    It minimises the squared reprojection errors. If the lens cannot see the corners, it is NaN. A
+    start nearby saves time.
     """
     points, pixels = board.points[view.numbers], view.pixels
     pose = _first_pose(points, lens, pixels) if start is None else start
@@ -62,7 +63,7 @@ def board_pose(
 
 
 def _first_pose(points: np.ndarray, lens: Lens, pixels: np.ndarray) -> np.ndarray:
-    """Roughly, by the directions in which the lens sees the pixels."""
+    """An approximate pose (4, 4) [m] of the board, from the directions of the pixels."""
     module = cv2.fisheye if lens.fisheye else cv2
     rays = module.undistortPoints(pixels[:, None], lens.matrix, lens.distortion)
     _, turn, place = cv2.solvePnP(points, rays, np.eye(3), None, flags=cv2.SOLVEPNP_IPPE)
@@ -72,26 +73,26 @@ def _first_pose(points: np.ndarray, lens: Lens, pixels: np.ndarray) -> np.ndarra
 
 
 def reprojection(board: Board, lens: Lens, view: Corners, pose: np.ndarray) -> np.ndarray:
-    """Of each corner, where it is less where it should be (c, 2) [px]."""
+    """The reprojection errors (c, 2) [px] of the corners, observed minus expected."""
     expected, _ = projected(board.points[view.numbers], lens, pose)
     return view.pixels - expected
 
 
 def good_corners(board: Board, lens: Lens, view: Corners) -> Corners:
-    """Those of a view that are where the others have them."""
+    """The corners of a view that fit the pose of the board."""
     off = np.linalg.norm(reprojection(board, lens, view, board_pose(board, lens, view)), axis=1)
     good = off <= FAR * max(np.median(off), np.finfo(float).eps)
     return Corners(view.numbers[good], view.pixels[good], view.softness)
 
 
 class Sighting(NamedTuple):
-    """What the corners in a picture say, with a noise of 1 px; else as a row of `Optics`.
+    """A pose and the information from its picture, for corners with a noise of 1 px; see `Optics`.
 
     Attributes:
-        pose: (4, 4) m of the camera in the board where it is on the hand; of the board in the
-            camera otherwise.
+        pose: (4, 4) m, of the camera in the board if the camera is on the hand; otherwise of the
+            board in the camera.
         squares: px^2, the sum of squared reprojection errors.
-        free: how many of these the pose does not make up for.
+        free: the degrees of freedom that the pose leaves.
     """
 
     pose: np.ndarray
@@ -112,12 +113,12 @@ def sighting(
     in_hand: bool,
     start: np.ndarray | None = None,
 ) -> Sighting:
-    """The pose that a view determines, with its information on the optics.
+    """The pose from a view, with the view's information on the optics.
 
     Args:
-        fitted: whether the lens is sought, too; otherwise it is known.
+        fitted: whether the lens is estimated, too; otherwise it is known.
         in_hand: whether the camera is on the hand.
-        start: a pose of the board in the camera nearby, for speed.
+        start: a nearby pose of the board in the camera, for speed.
     """
     pose, points = board_pose(board, lens, view, start), board.points[view.numbers]
     expected, slopes = projected(points, lens, pose)
@@ -127,13 +128,13 @@ def sighting(
         by_optics = by_optics[:, : len(BOARD)]
     root = np.linalg.qr(by_pose).R
     compensation = _compensation(by_pose, by_optics)
-    left = by_optics + by_pose @ compensation
+    remaining = by_optics + by_pose @ compensation
     return Sighting(
         np.linalg.inv(pose) if in_hand else pose,
         np.linalg.inv(root.T @ root),
         compensation,
-        left.T @ left,
-        left.T @ residuals,
+        remaining.T @ remaining,
+        remaining.T @ residuals,
         root * np.sqrt(2 / len(by_pose)),
         float(residuals @ residuals),
         len(residuals) - 6,
@@ -143,10 +144,10 @@ def sighting(
 def predicted_views(
     board: Board, lens: Lens, poses: np.ndarray, in_hand: bool
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Of pictures in which poses (n, 4, 4) [m] would be measured, before they are taken.
+    """Predictions for pictures from which poses (n, 4, 4) [m] would be measured.
 
-    Returns the slopes (n, 6, o) of `Optics`, with zeros where the board would not be found, and
-    whether most of its corners would be (n,). Arguments as of `sighting`.
+    Returns the slopes (n, 6, o) of `Optics`, zero if the board would not be found, and whether most
+    of its corners would be found (n,). Arguments are those of `sighting`.
     """
     count = len(BOARD) + len(optics_kinds(lens))
     slopes, visible = np.zeros((len(poses), 6, count)), np.zeros(len(poses), dtype=bool)
@@ -161,7 +162,7 @@ def predicted_views(
 
 
 def optics_of(lens: Lens, sightings: Sequence[Sighting]) -> tuple[np.ndarray, Optics]:
-    """Measured poses (n, 4, 4) [m] by a lens, and their information."""
+    """The measured poses (n, 4, 4) [m] of sightings through a lens, and their information."""
     poses, *parts, squares, free = map(np.array, zip(*sightings, strict=True))
     spread, slopes, information, gradient, pixels = parts
     kinds = np.concatenate([np.arange(len(BOARD)), optics_kinds(lens)])[: slopes.shape[-1]]
@@ -171,14 +172,14 @@ def optics_of(lens: Lens, sightings: Sequence[Sighting]) -> tuple[np.ndarray, Op
 
 
 def _compensation(by_pose: np.ndarray, by_optics: np.ndarray) -> np.ndarray:
-    """The pose (6, o) that compensates for optics, by derivatives (2 c, 6) and (2 c, o)."""
+    """The displacements (6, o) that compensate for optics, from slopes (2 c, 6) and (2 c, o)."""
     return -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
 
 
 def projected(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pixels (c, 2) of points (c, 3) [m] of a board at a pose, and their derivatives (2 c, 6 + k).
 
-    These are by the pose, as OpenCV has them, and by the parameters of the lens.
+    The derivatives are by the pose, in OpenCV's parameters, and by the parameters of the lens.
     """
     turn, place = cv2.Rodrigues(pose[:3, :3])[0], pose[:3, 3]
     if lens.fisheye:
@@ -193,11 +194,11 @@ def projected(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndar
 def _found(
     board: Board, lens: Lens, pose: np.ndarray, pixels: np.ndarray, slopes: np.ndarray
 ) -> np.ndarray:
-    """Which corners (c,) of a board at a pose (4, 4) would be found where they are projected."""
+    """Whether each corner (c,) of a board at a pose (4, 4) would be found at its projection."""
     turn = pose[:3, :3]
     ahead = board.points @ turn[2] + pose[2, 3] > 0
     inside = ((pixels > 0) & (pixels < np.array(lens.size) - 1)).all(axis=1)
-    across = (slopes[:, 3:6].reshape(-1, 2, 3) @ turn)[..., :2]  # px for a m on the board
+    across = (slopes[:, 3:6].reshape(-1, 2, 3) @ turn)[..., :2]  # px per m on the board
     narrow = (board.marker or board.square) * np.linalg.norm(across, -2, axis=(1, 2))
     faces = np.linalg.det(across) > 0
     return ahead & inside & faces & (narrow > NARROW)
@@ -206,7 +207,7 @@ def _found(
 def _derivatives(
     points: np.ndarray, slopes: np.ndarray, pose: np.ndarray, in_hand: bool
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Of pixels (2 c, 6) by a displacement of the measured pose, and by optics (2 c, o).
+    """Derivatives of pixels by displacements of the measured pose (2 c, 6), by optics (2 c, o).
 
     Points and slopes are as in `projected`; the pose is that of the board in the camera.
     """

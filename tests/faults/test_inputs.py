@@ -89,8 +89,8 @@ WRONG = {
     "a heading of many columns": ("rows.csv", 15_000_000 * "," + "\n", "it is empty"),
     "a cell of many digits": ("rows.csv", TABLE + 10_000_000 * "1" + ROW, "it is not CSV"),
     "a description without an end": ("it.toml", endless, "it is a device; expected: a regular"),
-    "deep TOML": ("it.toml", "a = " + 7_000 * "[" + 7_000 * "]", "nested too deep"),
-    "deep keys": ("it.toml", "instrument." + 7_900 * "a." + "a = 1", "nested too deep"),
+    "deep TOML": ("it.toml", "a = " + 7_000 * "[" + 7_000 * "]", "nested too deeply"),
+    "deep keys": ("it.toml", "instrument." + 7_900 * "a." + "a = 1", "nested too deeply"),
     "a long description": ("it.toml", 100_000 * "[", "at most 0.016 MB"),
     "a number of many digits": ("it.toml", "a = " + 10_000 * "9", "it is not TOML"),
     "an instrument far away": (
@@ -102,7 +102,7 @@ WRONG = {
     "a correction that is packed": (
         "correction.npz",
         packed,
-        "it unpacks to 2e+03 MB; expected: 256",
+        "it unpacks to 2e+03 MB; expected: at most 256",
     ),
 }
 

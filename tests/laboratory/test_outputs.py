@@ -79,7 +79,7 @@ def test_an_empty_folder_will_do_and_what_the_disk_gives_back_is_compared(tmp_pa
         assert content(out) == TWO
     assert {path.name for path in tmp_path.iterdir()} == {"empty", "a"}
     monkeypatch.setattr(Path, "read_bytes", lambda path: b"other")
-    with pytest.raises(InvalidFile, match=r"one\.txt: the disk gives back something else"):
+    with pytest.raises(InvalidFile, match=r"one\.txt: the disk returned other content"):
         write_new(tmp_path / "out", TWO)
 
 
@@ -126,7 +126,7 @@ def test_after_any_run_all_that_was_there_is_as_it_was(laboratory, entries, comm
         code, printed = run(folder, *COMMANDS[command], *([] if out is None else [f"--out={out}"]))
         after = content(folder)
         if out in entries and (entries[out][0] != "folder" or entries[out][1]):
-            assert f"recalib: cannot use {out}: it exists already, and nothing" in printed
+            assert f"recalib: cannot use {out}: it already exists and is not" in printed
         assert {name: after.get(name) for name in before} == before
         added = after.keys() - before.keys()
         assert bool(added) == (code == DONE)
@@ -150,7 +150,7 @@ def test_after_any_run_all_that_was_there_is_as_it_was(laboratory, entries, comm
 )
 def test_what_no_parser_reads_back_is_not_written(name, text, tmp_path):
     for out, files in (("folder", {"good.txt": b"", name: text}), (name, text)):
-        with pytest.raises(InvalidFile, match=f"{name}: what was computed for it cannot be read"):
+        with pytest.raises(InvalidFile, match=f"{name}: its computed content cannot be read"):
             write_new(tmp_path / out, files, Path(name).suffix)
     assert not [*tmp_path.iterdir()]
 

@@ -14,7 +14,7 @@ from recalib.laboratory.live.session import Ended, Move
 from recalib.nominal import find_urdf
 from tests.station.simulated import Simulated
 
-WAITS = {"APART": 0.0002, "SETTLING": 0.02, "PATIENCE": 0.3}  # s
+WAITS = {"INTERVAL": 0.0002, "SETTLING": 0.02, "PATIENCE": 0.3}  # s
 MOST = "recalib.laboratory.live.allowed.MOST"
 
 

@@ -211,20 +211,20 @@ def stuck(station, cells):
 PROTECTIVE = "the protective stop of the arm is on"
 STOPPED = {  # by the message, what a station does
     PROTECTIVE: {"moved": lambda station: raising(StationFailed(PROTECTIVE))},
-    "for 0.3 s the station has not answered when asked to move": {"moved": lambda _: time.sleep(1)},
+    "the station has not answered for 0.3 s when asked to move": {"moved": lambda _: time.sleep(1)},
     "after a move, elbow_joint is 0.05 rad or m from its command": {
         "moved": lambda station: station.shift(0, 0, 0.05, 0, 0, 0)
     },
-    "0.02 s after it should stand, the arm still moves its tool by .* mm; expected: at most 0.1": {
+    "0.02 s after the arm should have stopped, the tool still moves by .* mm; expected: at most": {
         "angles": lambda station, angles: station.shift(1e-3) if moved(station) == 3 else angles
     },
-    "while it was measured, the arm moved its tool by .* mm; expected: at most 0.1 mm": {
+    "during a measurement, the tool moved by .* mm; expected: at most 0.1 mm": {
         "measured": lambda station, cells: cells if station.shift(3e-4).any() else None
     },
     "asked to measure, the station raised KeyError: 'temperature'": {
         "measured": lambda station, cells: cells["temperature"]
     },
-    "for 0.3 s the station has not answered when asked to measure": {
+    "the station has not answered for 0.3 s when asked to measure": {
         "measured": lambda station, cells: time.sleep(1)
     },
     "is invalid: row 4 of column 'y' is 'nan'; expected: a number": {
@@ -263,10 +263,10 @@ STOPPED = {  # by the message, what a station does
     "is invalid: it has more than one column 'elbow_joint'": {
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },
-    "limits of shoulder_pan_joint are the wrong way round": {
+    "lower limit of shoulder_pan_joint is not below its upper one": {
         "limits": np.outer([2, -2], np.ones(6))
     },
-    "asked to tell its angles, the station raised OSError: no route": {
+    "asked to report its angles, the station raised OSError: no route": {
         "angles": lambda station, angles: (
             raising(OSError("no route")) if moved(station) == 3 else angles
         )
@@ -290,7 +290,7 @@ def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(message,
 def test_one_joint_that_creeps_is_enough_not_to_stand(joint, tmp_path):
     creep = 1e-3 * np.eye(6)[joint]  # rad from a reading to the next
     station = Spoilt(angles=lambda station, angles: station.shift(*creep))
-    with pytest.raises(StationFailed, match="the arm still moves its tool by"):
+    with pytest.raises(StationFailed, match="the tool still moves by"):
         run(station, tmp_path)
     assert measured(station) == 0
 
@@ -419,7 +419,7 @@ def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs):
     guarded = Guarded(lambda: stations.append(Bound()) or stations[0], Simulated().arm)
     (station,) = stations
     if hangs:
-        with pytest.raises(StationFailed, match="has not answered when asked to move"):
+        with pytest.raises(StationFailed, match="has not answered for .* s when asked to move"):
             guarded.move(station.angles(), 1.0)
     guarded.close()
     station.freed.set()

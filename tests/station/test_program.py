@@ -78,7 +78,7 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
     ("answer", "message"),
     [
         ("[INFO] measuring", "answered '.INFO. measuring' to 'measure'; expected: a JSON object"),
-        ("[1, 2]", "expected: a JSON object in a line. Messages for people belong on stderr"),
+        ("[1, 2]", "expected: a JSON object on one line. Log messages belong on stderr"),
         ("[" * 100_000, "expected: a JSON object"),
         ('{"error": "no tracker on port 3"}', "python.*: no tracker on port 3"),
         ("{}", "answered 'measure' without 'row'"),

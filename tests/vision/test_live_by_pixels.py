@@ -139,7 +139,7 @@ def test_what_stands_is_measured_in_what_moves(in_hand, tmp_path):
     assert [cells[f"{axis} [m]"] for axis in "xyz"] == pytest.approx(expected[:3, 3], abs=2e-3)
     turn = Rotation.from_quat([cells[f"q{axis}"] for axis in "xyzw"])
     assert (turn * Rotation.from_matrix(expected[:3, :3]).inv()).magnitude() < 2e-3
-    with pytest.raises(StationFailed, match="000.png is the same picture as the one before: is it"):
+    with pytest.raises(StationFailed, match="000.png is identical to the previous picture: is it"):
         camera.measure()
 
 
@@ -155,7 +155,7 @@ def test_what_is_no_picture_of_it_is_told(tmp_path):
             camera.measure()
     del station.measure
     cv2.imwrite(str(tmp_path / "grey.png"), np.full((100, 200), 128, np.uint8))
-    with pytest.raises(StationFailed, match="has 200 x 100 pixels; expected, as by the lens: 1280"):
+    with pytest.raises(StationFailed, match="has 200 x 100 pixels; expected: 1280"):
         camera.measure()
     grey = np.full(cell.lens.size[::-1], 128, np.uint8)
     cv2.imwrite(str(tmp_path / "grey.png"), grey)

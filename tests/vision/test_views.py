@@ -45,12 +45,12 @@ def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
     turned = replace(cell, board=printable(5, 7, 0.036))
     larger = replace(cell, board=printable(9, 7, 0.03))
     reasons = {
-        "marker 30 is not on the board: this is another one": larger.picture(poses[0]),
+        "marker 30 is not on the board: another board": larger.picture(poses[0]),
         "it is mirrored": cv2.flip(first, 1),
         "it is blurred": cell.picture(poses[0], blur=9),
         "more than once": np.maximum(first, np.roll(first, 640, axis=1)),
         "its markers are of 5X5_250, not of 4X4_100": other.picture(poses[0]),
-        "this is another one": turned.picture(poses[0]),
+        "not at their places on the board": turned.picture(poses[0]),
         "it shows 0 markers": np.full_like(second, 90),
     }
     for reason, picture in reasons.items():

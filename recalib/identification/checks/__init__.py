@@ -1,1 +1,1 @@
-"""Which answers can be trusted: faults in the rows, and what is not identifiable."""
+"""Diagnostics: faults in the measurements, and parameters that are not identifiable."""

@@ -1,4 +1,4 @@
-"""Checks of an identification: one that cannot be trusted is refused, with a reason in numbers."""
+"""Checks of an identification, which refuse an untrustworthy one and quantify the reason."""
 
 from collections.abc import Sequence
 
@@ -12,13 +12,13 @@ from recalib.identification.checks.sequence import Fault, faults
 from recalib.identification.model.observations import Observations
 from recalib.nominal.kinematics import Arm
 
-FEWEST = 10  # postures to hold some out
-NOISIEST = 5e-3, np.radians(2)  # m, rad along an axis: so bad is no instrument, and no arm
-NAMED = 5  # rows to look at first
-# Of a link, of all links together, and, where axes meet, m: a change beyond all is no wear. The
-# damage of the paper takes a tenth of a link, and a fortieth of them together.
+FEWEST = 10  # the least number of postures for cross-validation
+NOISIEST = 5e-3, np.radians(2)  # m, rad along an axis: no arm or instrument is as inaccurate
+NAMED = 5  # rows that a message lists
+# Limits on the wear of a link, of which the largest holds: fractions of its length and of all links
+# together, and m, for axes that meet. The paper's damage is a tenth of a link, a fortieth of all.
 OTHER_LINK, OTHER_ARM, OTHER_CROSSING = 0.2, 0.05, 0.02
-# Axes as near to parallel count as parallel: far away along them, any length would be explained.
+# lstsq's rcond, so that almost parallel axes count as parallel: far along them, any length fits.
 PARALLEL = 0.02
 
 
@@ -26,9 +26,9 @@ class Untrustworthy(RecalibError):
     """An identification of unknown or insufficient accuracy.
 
     Args:
-        problem: what is wrong, in words.
-        found: faults in the sequence of rows, which may be why.
-        gain: a joint that does not turn as its column says, likewise.
+        problem: the problem, in words.
+        found: faults in the sequence of rows, which may be the reason.
+        gain: a joint that does not turn as its column says, which may be the reason.
     """
 
     def __init__(self, problem: str, found: Sequence[Fault] = (), gain: WrongGain | None = None):
@@ -37,7 +37,7 @@ class Untrustworthy(RecalibError):
 
 
 def check_postures(postures: Postures) -> Postures:
-    """The same, if some of them can be held out. Raises Untrustworthy."""
+    """The given postures. Raises Untrustworthy: too few to hold some out."""
     if len(postures) < FEWEST:
         raise Untrustworthy(
             f"there are {len(postures.numbers)} rows of {len(postures)}"
@@ -48,7 +48,7 @@ def check_postures(postures: Postures) -> Postures:
 
 
 def check_estimate(geometry: Calibration, observations: Observations) -> None:
-    """Raise Untrustworthy unless an estimate of the geometry has converged and leaves noise."""
+    """Raise Untrustworthy unless the geometry's estimate converged, with plausible residuals."""
     noise = geometry.estimate.noise
     if not geometry.estimate.converged:
         raise Untrustworthy(
@@ -69,9 +69,9 @@ def check_estimate(geometry: Calibration, observations: Observations) -> None:
 
 
 def check_links(geometry: Calibration) -> None:
-    """Raise Untrustworthy unless links are about as long as the nominal arm's.
+    """Raise Untrustworthy unless links are about as long as the nominal ones.
 
-    Wrong units and wrong names of sockets may be explained by another arm, without any noise.
+    An arm of other lengths may explain wrong units or wrong names of sockets without any residuals.
     """
     nominal = geometry.model.nominal
     right, found = link_lengths(nominal, geometry.model.own_arm(geometry.estimate.parameters))
@@ -89,18 +89,17 @@ def check_links(geometry: Calibration) -> None:
 
 
 def link_lengths(nominal: Arm, identified: Arm) -> tuple[np.ndarray, np.ndarray]:
-    """Lengths (joints - 1,) [m] of the links from each joint's origin to the next, of both arms.
+    """Lengths (joints - 1,) [m] of both arms' links, from each joint's origin to the next.
 
-    An origin may lie anywhere on its joint's axis, and if the joint slides, anywhere at all: no
-    measurement determines where. So the origins of the identified arm are moved, as far as they may
-    be, to where its links are most like the nominal ones. What still differs does so wherever
-    origins lie.
+    No measurement determines where an origin lies along its joint's axis, or where the origin of a
+    prismatic joint lies at all. So the identified arm's origins are moved, within this freedom, to
+    where its links are most similar to the nominal ones. The remaining differences are real.
     """
     placements = [list(arm.model.jointPlacements)[2:] for arm in (nominal, identified)]
     right, found = (
         np.array([placement.translation for placement in arm]).reshape(-1, 3) for arm in placements
     )
-    free = [  # directions in which each origin may be moved, in the frame of its joint
+    free = [  # directions in which each origin may move, in the frame of its joint
         np.eye(3) if slides else np.outer(axis, axis)
         for slides, axis in zip(nominal.slides, nominal.axes, strict=True)
     ]

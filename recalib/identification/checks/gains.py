@@ -1,4 +1,4 @@
-"""Joints that do not turn as their columns say: by a share of another joint, or more or less."""
+"""Wrong gains: joints that turn by more or less than their column, or also by another's column."""
 
 from dataclasses import dataclass
 
@@ -10,17 +10,17 @@ from recalib.identification.checks.sequence import SHARE, Candidate, Unexplained
 from recalib.identification.model.error_model import JOINT_ERRORS
 from recalib.identification.model.observations import Observations
 
-LEAST, LEAST_GAIN = 0.01, 0.02  # of a joint's motion: gears and sag, which are neither, do less
+LEAST, LEAST_GAIN = 0.01, 0.02  # of a joint's motion: the effects of gears and sag are less
 FIRST_WAVE = [*JOINT_ERRORS].index("sine 1")
 
 
 @dataclass(frozen=True)
 class WrongGain:
-    """A joint turns by its column and, in addition, by a share of another joint's column.
+    """A joint that turns by its column and, in addition, by a share of another joint's column.
 
     Attributes:
-        joint, by: their numbers; the same where it moves by another gain.
-        share: of the motion.
+        joint, by: the numbers of both; equal if the joint's own gain is wrong.
+        share: the fraction of the motion of joint `by`.
     """
 
     joint: int
@@ -29,32 +29,32 @@ class WrongGain:
 
 
 def wrong_gain(geometry: Calibration, observations: Observations) -> WrongGain | None:
-    """The gain that explains the most of the residuals that no arm explains.
+    """The wrong gain that explains the largest part of the residuals that no arm explains.
 
     None if chance or gears may explain them.
 
-    All by one joint are compared without its waves, which look alike where it turned little.
+    Gains by a joint are compared without its waves, which look similar if the joint turned little.
     """
     slopes = slopes_of(geometry, observations, 1)
     model, nominal = slopes.model, geometry.model.nominal
     postures = find_postures(observations.joints, nominal.slides, geometry.estimate.noise[0])
-    alike = len(observations) / len(postures)
+    redundancy = len(observations) / len(postures)
     by_offset = slopes.arm[..., model.offset_columns] / model.deviations[model.offset_columns]
     moved = observations.joints - observations.joints.mean(axis=0)
-    rows, sure = np.arange(len(moved)), []
-    whole = Unexplained(slopes.residuals, slopes.arm, alike)
+    rows, accepted = np.arange(len(moved)), []
+    complete = Unexplained(slopes.residuals, slopes.arm, redundancy)
     for by in np.flatnonzero(~postures.still):
         terms = model.offset_columns.start + len(moved[0]) * np.arange(len(model.names)) + by
         without = slopes.arm.copy()
         without[..., terms[FIRST_WAVE:]] = 0.0
-        plain = Unexplained(slopes.residuals, without, alike)
+        reduced = Unexplained(slopes.residuals, without, redundancy)
         for joint in np.flatnonzero(nominal.slides == nominal.slides[by]):
             columns = by_offset[..., [joint]] * moved[:, by, None, None]
             candidate = Candidate("", rows, columns)
-            share, _, (found,) = plain.plainest(candidate)
+            share, _, (found,) = reduced.strongest(candidate)
             least = LEAST_GAIN if joint == by else LEAST
             if share < SHARE or abs(found) < least:
                 continue
-            if joint == by or whole.plainest(candidate)[0] >= SHARE:
-                sure.append((share, WrongGain(int(joint), int(by), float(found))))
-    return max(sure, key=lambda one: one[0], default=(None, None))[1]
+            if joint == by or complete.strongest(candidate)[0] >= SHARE:
+                accepted.append((share, WrongGain(int(joint), int(by), float(found))))
+    return max(accepted, key=lambda one: one[0], default=(None, None))[1]

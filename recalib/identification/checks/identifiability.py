@@ -1,9 +1,9 @@
 """Parameters of the geometry that are not identifiable from the measurements.
 
 Parameters are added one by one to the identifiable ones: frames, then joint offsets, then links,
-and last those of which others leave next to nothing. One is not identifiable if the data's
-information on it, with all before it free, is less than its prior's. The parameters that can
-compensate for it are its partners.
+and last those whose effect the others can almost fully reproduce. A parameter is not identifiable
+if the data's information on it, with all parameters before it free, is less than its prior's. The
+parameters that can compensate for it are its partners.
 """
 
 from collections.abc import Iterator
@@ -19,13 +19,13 @@ from recalib.identification.unseen import Unseen, anywhere, geometry_of
 from recalib.nominal.newton import solve_groups
 
 IDENTIFIABLE = 1.0  # the least information on an identifiable parameter, over its prior's
-POSTURES = 200  # all over the joints' ranges: they stand for all measurements of this kind
-SEATED, STEPS = 1e-9, 50  # m: how well a ball sits in its socket, and Newton's steps to there
-# Of a parameter's own information: the part that others leave if links are bent by two degrees, and
-# if they are not bent at all.
+POSTURES = 200  # over the joints' ranges: they represent all possible measurements of this kind
+SEATED, STEPS = 1e-9, 50  # m: the tolerance of a ball in its socket; Newton's steps to reach it
+# The fraction of a parameter's information that the other parameters cannot reproduce, if links are
+# bent by two degrees, and if they are not bent at all.
 WEAK, ROUNDING = 1e-3, 1e-8
-PARTNERS, SHARE = 3, 0.3  # so many at most, whose effect is that part of the largest at least
-DIGITS = 6  # of an effect over the largest: where several targets tie, rounding does not decide
+PARTNERS, SHARE = 3, 0.3  # the most partners, and their least effect over the largest effect
+DIGITS = 6  # of an effect over the largest: rounding must not order targets that tie
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,9 @@ class Unidentifiable:
     """A parameter that is not identifiable.
 
     Attributes:
-        parameter: its number.
+        parameter: the number of the parameter.
         partners: the numbers of the parameters that can compensate for it, the strongest first;
-            none if the data have no information on it at all.
+            empty if the data have no information on it at all.
         lasting: whether no measurements of this kind would make it identifiable.
     """
 
@@ -47,7 +47,7 @@ class Unidentifiable:
 def unidentifiable_parameters(
     calibration: Calibration, observations: Observations
 ) -> list[Unidentifiable]:
-    """The parameters of geometry that are not identifiable, in the order above."""
+    """The parameters of the geometry that are not identifiable, in the order above."""
     model, estimate = calibration.model, calibration.estimate
     order = _order(model)
     root = Unseen(model, observations).left_out(_root(calibration, observations, estimate.weights))
@@ -55,18 +55,18 @@ def unidentifiable_parameters(
     if observations.sockets is not None:
         pairs = np.unique(np.stack([observations.targets, observations.sockets]), axis=1)
         others = _seated(calibration, others.joints, pairs)
-    more = _root(calibration, others, np.ones(len(others)))
-    # What goes along an axis is the same before and behind it. By a bent link alone the first of
-    # two such parameters seems identifiable, and then the second does not: the first comes last.
+    further = _root(calibration, others, np.ones(len(others)))
+    # A shift along an axis is the same before and behind the axis. Only because a link is bent, the
+    # first of two such parameters seems identifiable, at the second's expense: so it goes last.
     ordered = root[:, order]
     weak = _dependent(ordered, WEAK * np.sum(ordered**2, axis=0))
     order = _last(order, [number for number, _ in weak])
     found = dict(_dependent(root[:, order], np.full(len(order), IDENTIFIABLE)))
-    # For other measurements these come last: all that could compensate for them is free.
+    # For other measurements these come last, so that all that could compensate for them is free.
     again = _last(np.arange(len(order)), [*found])
-    more = more[:, order[again]]
-    least = ROUNDING * np.maximum(np.sum(more**2, axis=0), IDENTIFIABLE)
-    lasting = {int(again[number]) for number, _ in _dependent(more, least)}
+    further = further[:, order[again]]
+    least = ROUNDING * np.maximum(np.sum(further**2, axis=0), IDENTIFIABLE)
+    lasting = {int(again[number]) for number, _ in _dependent(further, least)}
     return [
         Unidentifiable(int(order[number]), tuple(order[partners].tolist()), number in lasting)
         for number, partners in found.items()
@@ -74,12 +74,12 @@ def unidentifiable_parameters(
 
 
 def _last(order: np.ndarray, some: list[int]) -> np.ndarray:
-    """The same order (p,), but what stands at some places comes last."""
+    """The same order (p,), but with the elements at some places moved to the end."""
     return np.concatenate([np.delete(order, some), order[some]])
 
 
 def _order(model: ErrorModel) -> np.ndarray:
-    """Numbers of the parameters of geometry that are not held: frames, offsets, links."""
+    """The numbers of the geometry's parameters that are not held: frames, offsets, links."""
     numbers = geometry_of(model)
     offsets = numbers >= model.offset_columns.start
     return numbers[np.lexsort([~offsets, ~model.free[numbers]])]
@@ -88,7 +88,7 @@ def _order(model: ErrorModel) -> np.ndarray:
 def _root(calibration: Calibration, observations: Observations, weights: np.ndarray) -> np.ndarray:
     """R (P, P) with R' R the data's information on parameters over their prior deviations.
 
-    R is of the slopes themselves: in their squares, small numbers are lost to rounding.
+    R comes from the slopes and not from their squares, in which rounding destroys small numbers.
     """
     model, estimate = calibration.model, calibration.estimate
     parameters = estimate.parameters / model.deviations
@@ -101,7 +101,7 @@ def _root(calibration: Calibration, observations: Observations, weights: np.ndar
 
 
 def _seated(calibration: Calibration, joints: np.ndarray, pairs: np.ndarray) -> Observations:
-    """Balls in sockets, pairs (2, p), in postures near the given ones (n, joints) that reach."""
+    """Balls in sockets, by pairs (2, p), in postures near joints (n, joints) that reach them."""
     targets, sockets = pairs[:, np.arange(len(joints)) % pairs.shape[1]]
     goals = calibration.frames.sockets[sockets]
     parametric = replace(calibration, pattern=None)
@@ -116,17 +116,17 @@ def _seated(calibration: Calibration, joints: np.ndarray, pairs: np.ndarray) -> 
 
 
 def _dependent(root: np.ndarray, least: np.ndarray) -> Iterator[tuple[int, list[int]]]:
-    """Each column that those before it leave less information of than `least` (p,); partners."""
+    """Each column with less information than `least` (p,) beyond its predecessors; its partners."""
     accepted: list[int] = []
     for number, column in enumerate(root.T):
-        makes_up = np.linalg.lstsq(root[:, accepted], column, rcond=None)[0]
-        left = column - root[:, accepted] @ makes_up
-        if left @ left >= least[number]:
+        combination = np.linalg.lstsq(root[:, accepted], column, rcond=None)[0]
+        residual = column - root[:, accepted] @ combination
+        if residual @ residual >= least[number]:
             accepted.append(number)
             continue
-        effects = np.abs(makes_up) * np.linalg.norm(root[:, accepted], axis=0)
+        effects = np.abs(combination) * np.linalg.norm(root[:, accepted], axis=0)
         largest = effects.max(initial=0.0)
         weakest = SHARE * largest if largest**2 >= least[number] else np.inf
-        alike = np.round(effects / (largest or 1.0), DIGITS)
-        strongest = np.argsort(-alike, kind="stable")[:PARTNERS]
-        yield number, [accepted[one] for one in strongest if effects[one] >= weakest]
+        rounded = np.round(effects / (largest or 1.0), DIGITS)
+        strongest = np.argsort(-rounded, kind="stable")[:PARTNERS]
+        yield number, [accepted[n] for n in strongest if effects[n] >= weakest]

@@ -1,4 +1,4 @@
-"""What outliers share: rows that were exchanged, or measured with the instrument elsewhere."""
+"""Patterns in outliers: exchanged rows, and rows measured with the instrument displaced."""
 
 from typing import NamedTuple
 
@@ -10,20 +10,20 @@ from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.model.frames import nearest_rotation
 from recalib.identification.model.observations import Observations
 
-NEAR = 8.0  # standard deviations along an axis, from another row's prediction
-FEWEST, REST = 5, 0.3  # rows in a row; the part of their errors that one motion may leave
-MOST = 1000  # outliers that are compared: memory grows with their square
+NEAR = 8.0  # standard deviations along an axis within which a row fits another's prediction
+FEWEST, REST = 5, 0.3  # successive rows; the fraction of their errors that one motion may leave
+MOST = 1000  # outliers to compare: memory grows with their square
 
 
 class Exchanged(NamedTuple):
-    """Numbers (k,) of rows from 0, and of the rows whose joints their measurements fit."""
+    """Numbers (k,), from 0, of rows, and of the rows whose joints fit their measurements."""
 
     rows: np.ndarray
     others: np.ndarray
 
 
 class Displaced(NamedTuple):
-    """Rows, from 0, whose measurements one motion of the instrument explains [m, rad]."""
+    """Rows, from 0, whose measurements a single motion [m, rad] of the instrument explains."""
 
     first: int
     last: int
@@ -32,7 +32,7 @@ class Displaced(NamedTuple):
 
 
 def exchanged(geometry: Calibration, observations: Observations) -> Exchanged | None:
-    """Outliers whose measurements fit the joints of other outliers; None if there are none."""
+    """Outliers whose measurements fit the joints of other outliers; None if no such rows exist."""
     rows = _outliers(geometry, observations)[:MOST]
     if len(rows) < 2:
         return None
@@ -44,7 +44,7 @@ def exchanged(geometry: Calibration, observations: Observations) -> Exchanged | 
 
 
 def displaced(geometry: Calibration, observations: Observations) -> list[Displaced]:
-    """Runs of outliers that are off alike, between other rows: what follows them is a jump."""
+    """Runs of equally displaced outliers between other rows; a run at either end is a jump."""
     found, outliers = [], _outliers(geometry, observations)
     for run in np.split(outliers, np.flatnonzero(np.diff(outliers) > 1) + 1):
         ends = [row for row in (*(run[:1] - 1), *(run[-1:] + 1)) if 0 <= row < len(observations)]
@@ -63,7 +63,7 @@ def displaced(geometry: Calibration, observations: Observations) -> list[Displac
 
 
 def _outliers(geometry: Calibration, observations: Observations) -> np.ndarray:
-    """Numbers (k,) of rows that hardly count; none of balls in sockets, which have no positions."""
+    """The numbers (k,) of outliers; none for balls in sockets, which have no positions."""
     if observations.measured is None:
         return np.zeros(0, dtype=int)
     return np.flatnonzero(geometry.estimate.weights < DOUBTFUL)

@@ -1,8 +1,8 @@
-"""What measurements are worth: how large what measures an arm is, and how well the arm returns.
+"""The scale of measurements, such as that of a printed board, and the repeatability of the arm.
 
 An arm whose links may have any length explains boards, distances and positions of any scale: all
-grow together. So links are held as long as they are described where a scale is asked for, and only
-joint offsets, frames, optics and scales are found.
+grow together. So links are held at their described lengths while a scale is estimated, and only
+joint offsets, frames, optics and scales are free.
 """
 
 from collections.abc import Sequence
@@ -19,20 +19,19 @@ from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import BOARD, Optics
 from recalib.nominal.kinematics import Arm
 
-# Of displacements [m, rad], for a rad by which joints do not return.
+# The covariance of displacements [m, rad], for a joint repeatability of one rad.
 COVARIANCE = np.diag([LEVER**2] * 3 + [1.0] * 3)
-RETURNS = 3e-5, 1e-4, 3e-4, 1e-3  # rad: from what hardly an arm does better to a worn one
-ANY = 0.5  # standard deviation of a scale that may be anything
-LINKS = 2e-3  # rad, times a lever m: so far links that are held make an arm miss
+RETURNS = 3e-5, 1e-4, 3e-4, 1e-3  # rad: joint repeatabilities, from an excellent to a worn arm
+ANY = 0.5  # standard deviation of an unknown scale
+LINKS = 2e-3  # rad (times a lever, m): the arm's errors because its links are held
 
 
 def returning(model: ErrorModel, observations: Observations) -> np.ndarray:
-    """The covariance (6, 6) [m, rad] by which the arm does not return to a posture.
+    """The covariance (6, 6) [m, rad] of the arm's returns to a posture: its repeatability.
 
-    Corners determine some directions of a pose a hundred times better than others. If the arm
-    itself does not return as well, the surest directions are less sure than they look. So each pose
-    has the covariance of its corners and, in addition, this one, whose size is the most probable of
-    a few.
+    Corners determine some directions of a pose a hundred times better than others. If the arm does
+    not return as precisely, the best directions are less certain than they look. So each pose has
+    the covariance of its corners plus this one, whose size is the most probable of a few.
 
     Raises BadMeasurement, as `identify`.
     """
@@ -41,7 +40,7 @@ def returning(model: ErrorModel, observations: Observations) -> np.ndarray:
         covariance = size**2 * COVARIANCE
         weighed = observations.with_noise(covariance)
         assert weighed.optics is not None
-        # a density of residuals before they were whitened
+        # from the density of whitened residuals to that of the residuals themselves
         volume = np.linalg.slogdet(weighed.optics.whitening).logabsdet.sum()
         evidence = identify(model, weighed).log_evidence
         tried.append((evidence + volume, -size, covariance))
@@ -49,13 +48,13 @@ def returning(model: ErrorModel, observations: Observations) -> np.ndarray:
 
 
 class Scale(NamedTuple):
-    """The scale of something.
+    """The estimated scale of a board, of a distance, or of positions.
 
     Attributes:
         factor: the estimated size over the stated one.
         remaining: the noise with the estimated sizes over the noise with the stated ones, or with
-            positions as in the table; 0 for a board, where it is not needed. If other links than
-            those described are the reason, or none has a length, much of the noise remains.
+            positions as in the table; 0 for a board, which does not need it. Much of the noise
+            remains if links differ from their description, or if no link has a length.
     """
 
     factor: float
@@ -65,7 +64,7 @@ class Scale(NamedTuple):
 def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Scale]:
     """The scale of each board, of each distance between sockets, or of all measured positions.
 
-    Simulated arms determine the scale of a board to 0.3 percent. The frames are an initial
+    In simulations, the scale of a board is accurate to 0.3 percent. The frames are an initial
     estimate, with optics if cameras measured.
 
     Raises BadMeasurement, as `identify`.
@@ -92,16 +91,16 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
     errors = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
     unit = 1.0
     if observations.measured is not None and not by_cameras:
-        # where no link holds the size, all may shrink to a point, and its noise with it
+        # if no link has a length, everything may shrink to a point, and the noise with it
         unit = max(abs(1 + errors.item()), HELD)
     remaining = float(found.noise[0] / noise / unit)
     return [Scale(factor, remaining) for factor in [*factors, *(1 + errors).tolist()]]
 
 
 def _rod(observations: Observations) -> Optics:
-    """Positions that were measured by a rod, whose length is all that there is of optics."""
+    """Optics of positions that a rod measured: their only parameter is the length of the rod."""
     count, size = len(observations), 3 * observations.kinds
     slopes = np.zeros((count, size, 1))
     slopes[:, :3, 0] = observations.positions
-    nothing, same = np.zeros((count, 1, 1)), np.tile(np.eye(size), (count, 1, 1))
-    return Optics(same, slopes, nothing, nothing[..., 0], same, same, np.zeros(1, dtype=int))
+    nothing, unit = np.zeros((count, 1, 1)), np.tile(np.eye(size), (count, 1, 1))
+    return Optics(unit, slopes, nothing, nothing[..., 0], unit, unit, np.zeros(1, dtype=int))

@@ -1,11 +1,11 @@
 """Faults in the sequence of rows: poses that lag behind the joints, a drift, a jump, a slip.
 
-Rows in the order of measurement show such faults in their residuals. Each fault is modelled by
-parameters in addition to those of the arm: the delay of all poses as a part of a step; the growth
-of an arm that warms up; a motion of the instrument relative to the base, over time or from some row
-on; or one of a target on the tool. Of several cameras, each may have faults of its own. A fault
-that no arm could explain instead, and that is too large for chance, is reported. All rows take
-part, also those that are far off: after a jump all are. But no single one decides.
+The residuals of rows in the order of measurement show such faults. Parameters in addition to those
+of the arm model each fault: the delay of all poses as a fraction of a step; the growth of an arm
+that warms up; a motion of the instrument relative to the base, over time or from some row on; or a
+motion of a target on the tool. Each of several cameras may have faults of its own. A fault is
+reported if no arm could explain it instead and if it is too large for chance. All rows take part,
+even those with large residuals, which all rows after a jump have. But no single row decides.
 """
 
 from collections.abc import Iterator
@@ -24,28 +24,28 @@ from recalib.identification.model.linearisation import Linearisation, displaceme
 from recalib.identification.model.observations import Observations
 
 LAG, DRIFT, GROWTH, JUMP, SLIP = "lag", "drift", "growth", "jump", "slip"
-CHANCE = 1e-6  # of a reported fault, were all residuals noise
-SHARE = 0.15  # of the squares of residuals; a real arm's residuals are more than noise
+CHANCE = 1e-6  # the probability of a reported fault if all residuals were noise
+SHARE = 0.15  # the least share of the squared residuals: a real arm's residuals are more than noise
 MOST = 3  # faults at once
-ENDS = 5  # rows on either side of a jump
-# Times the noise: of a row that is farther off, the distance counts and not its square; if that
-# shows no fault, as among gross outliers, it hardly counts at all
+ENDS = 5  # the least number of rows on either side of a jump
+# In deviations of the noise. Beyond it, the residual of a row counts and not its square. If this
+# reveals no fault, for instance because of gross outliers, such a row hardly counts at all.
 FAR = 4.0
-SMALL = 1e-3  # of the typical step: for slopes
+SMALL = 1e-3  # fraction of the typical step for finite differences
 
 
 @dataclass(frozen=True)
 class Fault:
-    """Something that rows show by their order.
+    """A fault that the order of rows reveals.
 
     Attributes:
         kind: lag, drift, growth (of the arm), jump (of the instrument) or slip (of a target).
-        size: of a lag, by how many seconds poses are late, or, of rows without times, by what part
-            of the step to each; of growth, by what part from the first row to the last; otherwise
-            m, by how much the instrument moves against the base, from the first row to the last or
-            at once, or the target against the tool.
-        row: from 0 in its series, the first one after a jump or a slip.
-        turn: rad, that goes with the size.
+        size: for a lag, the delay of poses in seconds, or as a fraction of the step to each row if
+            rows have no times; for growth, the relative growth from the first row to the last;
+            otherwise the motion [m] of the instrument relative to the base, from the first row to
+            the last or at once, or of the target relative to the tool.
+        row: the first row, from 0 in its series, after a jump or a slip.
+        turn: rad, the rotation that belongs to the size.
         sight: the number of this row's sight.
     """
 
@@ -57,15 +57,15 @@ class Fault:
 
 
 def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
-    """What rows show by their order in each series; the geometry was identified by the same rows.
+    """The faults in each series of rows, from which the geometry was identified.
 
-    A lag bends the arm that is identified, and so leaves more than a lag. If it is the plainest
-    fault, all others are looked for without it.
+    A lag distorts the identified arm, so its residuals resemble other faults. If a lag is the most
+    significant fault, the other faults are sought after its removal.
     """
     found = _faults(geometry, observations, 1) or _faults(geometry, observations, 2)
     if len(found) < 2 or found[0].kind != LAG:
         return found
-    # at the joint coordinates of the moments at which poses were measured
+    # move the joints back to the times at which the poses were measured
     lag, joints, series = found[0], observations.joints.copy(), observations.series
     rows = series == series[observations.targets == lag.sight][0]
     joints[rows] -= lag.size * _speeds(joints[rows], _times(observations)[rows])
@@ -77,24 +77,24 @@ def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
 
 
 def _faults(geometry: Calibration, observations: Observations, power: int) -> list[Fault]:
-    """The same, all by one linearisation, with weights that fall by a power of the distance."""
+    """The faults by one linearisation, with weights that fall by a power of the residual."""
     residuals, arm, weights, model = slopes_of(geometry, observations, power)
     estimate = geometry.estimate
     postures = find_postures(observations.joints, model.nominal.slides, estimate.noise[0])
-    alike = len(observations) / len(postures)
+    redundancy = len(observations) / len(postures)
     candidates = [
         one._replace(columns=one.columns * weights[one.rows, :, None])
         for one in _candidates(geometry, observations)
     ]
     found: list[Fault] = []
-    while len(found) < MOST:  # the plainest first, then what it does not explain
-        rest = Unexplained(residuals, arm, alike)
-        tried = [(*rest.plainest(candidate), candidate) for candidate in candidates]
-        share, after, by, (kind, rows, columns, _) = max(tried, key=lambda one: one[0])
+    while len(found) < MOST:  # the most significant fault first, then those that remain next to it
+        rest = Unexplained(residuals, arm, redundancy)
+        tried = [(*rest.strongest(candidate), candidate) for candidate in candidates]
+        share, after, step, (kind, rows, columns, _) = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
-        size = by[0] if len(by) == 1 else np.linalg.norm(by[:3])
-        turn = np.linalg.norm(by[3:])
+        size = step[0] if len(step) == 1 else np.linalg.norm(step[:3])
+        turn = np.linalg.norm(step[3:])
         series = observations.series == observations.series[rows[after]]
         row, sight = int(series[: rows[after]].sum()), int(observations.targets[rows[after]])
         found.append(Fault(kind, float(size), row, float(turn), sight))
@@ -105,13 +105,13 @@ def _faults(geometry: Calibration, observations: Observations, power: int) -> li
 
 
 class Slopes(NamedTuple):
-    """Residuals and their slopes, weighted.
+    """Weighted residuals and their slopes.
 
     Attributes:
         residuals: (n, k) over their noise.
-        arm: (n, k, P) their slopes by the model's parameters over their deviations.
+        arm: (n, k, P) slopes of the residuals by the model's parameters over their deviations.
         weights: (n, k) of both.
-        model: geometry with joint errors.
+        model: the error model, geometry with joint errors.
     """
 
     residuals: np.ndarray
@@ -121,7 +121,7 @@ class Slopes(NamedTuple):
 
 
 def slopes_of(geometry: Calibration, observations: Observations, power: int) -> Slopes:
-    """Those of all rows, which count less the farther off they are, by a power of the distance."""
+    """The slopes of all rows; large residuals have weights that fall by a power of the residual."""
     model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
     parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
     parameters[: len(estimate.parameters)] = estimate.parameters
@@ -135,13 +135,13 @@ def slopes_of(geometry: Calibration, observations: Observations, power: int) -> 
 
 
 class Candidate(NamedTuple):
-    """A fault that there may be.
+    """A possible fault.
 
     Attributes:
-        kind: of the fault.
-        rows: (m,) numbers of the rows that it concerns, in the order of their measurement.
-        columns: (m, k, c) slopes of their residuals by the fault's parameters.
-        ends: the fewest rows on either side of where the fault begins; 0: with the first row.
+        kind: the kind of fault.
+        rows: (m,) the numbers of the affected rows, in the order of measurement.
+        columns: (m, k, c) slopes of these rows' residuals by the fault's parameters.
+        ends: the least number of rows before and after the fault begins; 0: it begins at the first.
     """
 
     kind: str
@@ -167,7 +167,7 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[C
     for number in np.unique(observations.series):
         rows = np.flatnonzero(observations.series == number)
         part, clock = observations[rows], times[rows]
-        if clock[0] == clock[-1]:  # a camera that took one picture: nothing is late or drifts
+        if clock[0] == clock[-1]:  # a camera with one picture cannot show a lag or a drift
             continue
         passed[rows] = (clock - clock[0]) / np.ptp(clock)
         yield Candidate(LAG, rows, part.whitened(_late(geometry, part, clock))[..., None])
@@ -181,7 +181,7 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[C
 
 
 def _orders(rows: np.ndarray, series: np.ndarray, along: np.ndarray) -> Iterator[np.ndarray]:
-    """Rows as they may have been measured: each series, one after the other, or side by side."""
+    """Possible orders of measurement: each series alone, series in succession, and interleaved."""
     parts = [rows[series[rows] == number] for number in np.unique(series[rows])]
     yield from parts
     if len(parts) > 1:
@@ -190,17 +190,17 @@ def _orders(rows: np.ndarray, series: np.ndarray, along: np.ndarray) -> Iterator
 
 
 class Unexplained:
-    """What an arm does not explain of weighted rows, and what further parameters would.
+    """The residuals that an arm leaves unexplained, and tests of further parameters on them.
 
     Args:
         residuals: (n, k) over their noise.
-        arm: (n, k, P) their slopes by parameters over their deviations.
-        alike: rows to a posture. What no model explains is the same in all of them, so they are
-            one where chance is asked for.
+        arm: (n, k, P) slopes of the residuals by parameters over their deviations.
+        redundancy: the rows per posture. They have the same unexplained residuals, so they count as
+            one row in significance tests.
     """
 
-    def __init__(self, residuals: np.ndarray, arm: np.ndarray, alike: float):
-        self._residuals, self._arm, self._alike = residuals, arm, alike
+    def __init__(self, residuals: np.ndarray, arm: np.ndarray, redundancy: float):
+        self._residuals, self._arm, self._redundancy = residuals, arm, redundancy
         self._gradient = np.einsum("nkp,nk->p", arm, residuals)
         rows = arm.reshape(-1, arm.shape[-1])
         information = rows.T @ rows
@@ -208,10 +208,10 @@ class Unexplained:
         self._squares = np.sum(residuals**2) - self._gradient @ self._solve(self._gradient)
         self._free = np.count_nonzero(residuals) - np.trace(self._solve(information))
 
-    def plainest(self, candidate: Candidate) -> tuple[float, int, np.ndarray]:
-        """A fault's share of the unexplained squares, 0 where that may be chance.
+    def strongest(self, candidate: Candidate) -> tuple[float, int, np.ndarray]:
+        """A fault's share of the unexplained squares; 0 if it is not significant.
 
-        Returns also with which of its rows it begins, and its parameters (c,).
+        Also returns the row, among the candidate's, at which it begins, and its parameters (c,).
         """
         _, numbers, columns, ends = candidate
         products = (
@@ -222,29 +222,30 @@ class Unexplained:
         rows = np.arange(ends, len(columns) - ends + 1) if ends else np.zeros(1, int)
         if not len(rows) or self._free <= columns.shape[-1]:
             return 0.0, 0, np.zeros(columns.shape[-1])
-        own, across, gradient = (np.cumsum(part[::-1], axis=0)[::-1][rows] for part in products)
+        sums = (np.cumsum(part[::-1], axis=0)[::-1][rows] for part in products)
+        information, across, gradient = sums
         absorbed = self._solve(across.reshape(-1, across.shape[-1]).T).T.reshape(across.shape)
-        own = own - absorbed @ across.swapaxes(1, 2)
+        information = information - absorbed @ across.swapaxes(1, 2)
         gradient = gradient - absorbed @ self._gradient
-        found = (np.linalg.pinv(own, hermitian=True) @ gradient[..., None])[..., 0]
+        found = (np.linalg.pinv(information, hermitian=True) @ gradient[..., None])[..., 0]
         gains = np.sum(found * gradient, axis=1)
         best, count = int(gains.argmax()), columns.shape[-1]
-        gain, free = gains[best], (self._free - count) / self._alike
+        gain, free = gains[best], (self._free - count) / self._redundancy
         ratio = gain / count / (self._squares - gain) * free
-        plain = fdtrc(count, free, ratio) * len(rows) < CHANCE
-        return gain / self._squares if plain else 0.0, int(rows[best]), found[best]
+        significant = fdtrc(count, free, ratio) * len(rows) < CHANCE
+        return gain / self._squares if significant else 0.0, int(rows[best]), found[best]
 
-    def _solve(self, pulls: np.ndarray) -> np.ndarray:
-        return scipy.linalg.cho_solve(self._factor, pulls)
+    def _solve(self, gradients: np.ndarray) -> np.ndarray:
+        return scipy.linalg.cho_solve(self._factor, gradients)
 
 
 def _times(observations: Observations) -> np.ndarray:
-    """When rows were measured (n,), in seconds, or in rows if no time was recorded."""
+    """The times (n,) of the rows, in seconds, or their numbers if no times were recorded."""
     return np.arange(len(observations)) if observations.times is None else observations.times
 
 
 def _late(geometry: Calibration, observations: Observations, times: np.ndarray) -> np.ndarray:
-    """How targets go back with time (n, k) [m, rad], at the speed of the step to each row."""
+    """Backward velocities (n, k) of targets [m, rad per s or row] during the step to each row."""
     small = SMALL * np.median(np.diff(np.unique(times)))
     here = geometry.predict(observations.joints, observations.targets)
     earlier = observations.joints - small * _speeds(observations.joints, times)
@@ -253,14 +254,14 @@ def _late(geometry: Calibration, observations: Observations, times: np.ndarray) 
 
 
 def _speeds(joints: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """How fast joints (n, joints) moved on the step to each row; rows at one time are as fast."""
+    """Velocities (n, joints) of the step to each row; rows of the same time share one."""
     times, first, numbers = np.unique(times, return_index=True, return_inverse=True)
     speeds = np.diff(joints[first], axis=0) / np.diff(times)[:, None]
     return np.concatenate([0 * speeds[:1], speeds])[numbers]
 
 
 def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:
-    """What moves of their instruments (n,) by 1 m and 1 rad do to poses (n, 6, 6)."""
+    """Displacements (n, 6, 6) of poses by motions of 1 m and 1 rad of their instruments (n,)."""
     columns = np.tile(np.eye(6), (len(poses), 1, 1))
     for number in np.unique(instruments):
         rows = instruments == number

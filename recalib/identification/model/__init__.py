@@ -1,4 +1,4 @@
-"""What is estimated: the errors of an arm as parameters, and the residuals of measurements."""
+"""Error models: the errors of an arm as parameters, and the residuals of measurements."""
 
 import lazy_loader
 

@@ -1,13 +1,13 @@
 """An arm with errors: a nominal arm whose possible errors are parameters.
 
-The parameters are small and zero for the nominal arm. In their order:
+The parameters are small, and zero for the nominal arm. In this order:
 
-- twists (joints + targets, 6): xi_k = (v, w) [m, rad] moves what link k carries, in the frame of
-  link k: the placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist moves
-  the whole arm; the last link carries the targets, each with a twist of its own. The tool itself
-  is the only target where frames are known. Further instruments have further twists of the base.
+- twists (joints + targets, 6): xi_k = (v, w) [m, rad] moves everything that link k carries, in the
+  frame of link k: the placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist
+  moves the whole arm; the last link carries the targets, each with a twist of its own. If frames
+  are known, the tool is the only target. Further instruments have further twists of the base.
 - centres (socket, 3): displacements [m] of the sockets from their initial estimate.
-- optics (o,): of the cameras that measured; see `recalib.identification.model.optics`.
+- optics (o,): of the measuring cameras; see `recalib.identification.model.optics`.
 - joint terms (term, joints): coefficients of functions of the joint coordinates that add up to the
   joints' errors [rad, m]. The first term is constant, so its coefficients are the joint offsets.
 
@@ -28,14 +28,14 @@ import pinocchio as pin
 from recalib.identification.model.frames import HELD, UNKNOWN, Frames
 from recalib.nominal.kinematics import Arm, tool_frame
 
-# By name, a function of the nominal arm and of joint coordinates (n, joints) [rad, m] with a value
-# for each joint (n, joints), and the standard deviation of its coefficients before anything is
-# known, of all joints or of each.
+# By name: a function of the nominal arm and of joint coordinates (n, joints) [rad, m] that returns
+# a value for each joint (n, joints), and the prior standard deviation of its coefficients, one for
+# all joints or one for each.
 JointTerms = dict[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float | np.ndarray]]
 
 
 def held(terms: JointTerms, joints: np.ndarray) -> JointTerms:
-    """The same terms, without errors of some joints (joints,): they stay at zero."""
+    """The same terms, with the errors of some joints, a mask (joints,), held at zero."""
     return {
         name: (function, np.where(joints, HELD, scale)) for name, (function, scale) in terms.items()
     }
@@ -48,8 +48,8 @@ def _waves(order: int, amplitude: float) -> JointTerms:
     }
 
 
-# The nominal arm; geometry alone; with compliance [rad/Nm] and eccentric gears; with all that a
-# gear adds to a turn.
+# The nominal arm; geometry alone; also compliance [rad/Nm] and eccentric gears; also the higher
+# harmonics of a gear's transmission error.
 NO_ERRORS: JointTerms = {}
 OFFSETS: JointTerms = {"offset": (lambda arm, angles: np.ones_like(angles), np.radians(4))}
 JOINT_ERRORS = OFFSETS | {"compliance": (Arm.gravity_torque, 1e-4)} | _waves(1, np.radians(0.5))
@@ -61,20 +61,20 @@ JOINT_WAVES = reduce(
 class ErrorModel:
     """The kinematics of an arm as a function of its parameters.
 
-    Only joints that turn have waves and compliance; without the masses of links gravity is unknown,
-    and there is no compliance. Such coefficients are held at zero.
+    Only revolute joints have waves and compliance. If the masses of the links are unknown, gravity
+    torques are, too, and there is no compliance. These coefficients are held at zero.
 
     Args:
         arm: the nominal kinematics.
         terms: the joint terms: `OFFSETS`, `JOINT_ERRORS` or `JOINT_WAVES`, each of which starts
             with the one before it; or `NO_ERRORS`, which holds all but unknown frames at nominal.
-        frames: at both ends of the arm; default: its own base and tool.
+        frames: the frames at both ends of the arm; default: the arm's own base and tool.
 
     Attributes:
-        nominal, frames: the arm, and what is at its ends.
-        names: of the joint terms.
+        nominal, frames: the arguments.
+        names: the names of the joint terms.
         deviations: (P,) standard deviations of the parameters under the prior, whose mean is zero.
-        free: (P,) whether a parameter is of unknown frames or of optics: it need not be zero.
+        free: (P,) whether a parameter belongs to unknown frames or optics and need not be small.
     """
 
     def __init__(self, arm: Arm, terms: JointTerms, frames: Frames | None = None):
@@ -83,7 +83,7 @@ class ErrorModel:
         targets, sockets = self.frames.targets, self.frames.sockets
         self._joints = arm.model.nv
         ends = self._joints + len(targets)  # where the twists of further instruments begin
-        self._twists = 6 * (ends + len(self.frames.further))  # how many parameters are of twists
+        self._twists = 6 * (ends + len(self.frames.further))  # the number of twist parameters
         self._optics = self._twists + sockets.size
         self._geometry = self._optics + len(self.frames.optics_deviations)
         links = [self.frames.link_deviations] * (self._joints - 1)
@@ -110,7 +110,7 @@ class ErrorModel:
         self._placements = [self._base * first, *others]
         self._placements += [self._tool * pin.SE3(target) for target in targets]
         self._placements += [pin.SE3(base) * first for base in self.frames.further]
-        self._ends = [  # of each sight, the numbers of its twists
+        self._ends = [  # the numbers of the twists at both ends of each sight
             (ends + instrument - 1 if instrument else 0, self._joints + target)
             for instrument, target in self.frames.sights.tolist()
         ]
@@ -124,7 +124,7 @@ class ErrorModel:
         slides = self.nominal.slides
         deviations[:, slides] = HELD
         deviations[0] = self.frames.offset_deviation or deviations[0]
-        deviations[0, slides] = self.frames.link_deviations[0]  # in the place of a turn's
+        deviations[0, slides] = self.frames.link_deviations[0]  # a length instead of an angle
         if self.nominal.massless and "compliance" in self.names:
             deviations[self.names.index("compliance")] = HELD
         return np.where(np.array(scales) > HELD, deviations, HELD)
@@ -139,7 +139,7 @@ class ErrorModel:
 
     @cached_property
     def stated(self) -> np.ndarray:
-        """The information (P, P) that is stated of frames, on parameters over their deviations."""
+        """The stated information (P, P) on frames, of parameters over their deviations."""
         frames, information = self.frames, np.zeros((len(self.deviations),) * 2)
         into_base, into_tool = frames.base[:3, :3].T, self._tool.rotation.T
         ends = [(0, into_base, np.zeros(3), frames.base_prior)]
@@ -149,7 +149,7 @@ class ErrorModel:
             for number, target in enumerate(frames.targets)
         ]
         for number, turn, point, prior in ends:
-            if len(prior):  # how the end's point moves and turns with the twist, over its deviation
+            if len(prior):  # slopes of the end's motion by the twist, over their deviations
                 columns, moves = slice(6 * number, 6 * number + 6), np.kron(np.eye(2), turn)
                 moves[:3, 3:] = -turn @ pin.skew(point)
                 slopes = moves * self.deviations[columns] / prior[:, None]
@@ -158,22 +158,22 @@ class ErrorModel:
 
     @property
     def size(self) -> int:
-        """How many parameters are not held."""
+        """The number of parameters that are not held."""
         return int(np.sum(self.deviations > HELD))
 
     @property
     def socket_columns(self) -> slice:
-        """Which parameters are the sockets' centres."""
+        """The indices of the sockets' centres among the parameters."""
         return slice(self._twists, self._optics)
 
     @property
     def optics_columns(self) -> slice:
-        """Which parameters are of the cameras' optics."""
+        """The indices of the cameras' optics among the parameters."""
         return slice(self._optics, self._geometry)
 
     @property
     def offset_columns(self) -> slice:
-        """Which parameters are the joint offsets."""
+        """The indices of the joint offsets among the parameters."""
         return slice(self._geometry, self._geometry + self._joints)
 
     def coefficients(self, parameters: np.ndarray) -> dict[str, np.ndarray]:
@@ -184,7 +184,7 @@ class ErrorModel:
         return parameters[self._geometry :].reshape(-1, self._joints)
 
     def _placed(self, parameters: np.ndarray) -> list[pin.SE3]:
-        """The placements of joints and targets with the twists of the parameters done to them."""
+        """The placements of joints and targets, moved by the twists in the parameters."""
         return [
             pin.exp6(pin.Motion(twist)) * nominal
             for twist, nominal in zip(self.twists(parameters), self._placements, strict=True)
@@ -198,19 +198,19 @@ class ErrorModel:
         return arm
 
     def arm(self, parameters: np.ndarray, sight: int = 0) -> Arm:
-        """From instrument to target of a sight: the arm with the parameters' twists done to it."""
+        """The arm from the instrument to the target of a sight, moved by the parameters' twists."""
         placed, (start, end) = self._placed(parameters), self._ends[sight]
         return self._with([placed[start], *placed[1 : self._joints]], placed[end])
 
     def own_arm(self, parameters: np.ndarray) -> Arm:
-        """From the arm's own base to its own tool: the same without instrument and target."""
+        """The same arm from its own base to its own tool, without instrument and target."""
         (first, *others), frames = self._placed(parameters), self.found(parameters)
         first = pin.SE3(frames.base).inverse() * first
         tool = others[self._joints - 1] * pin.SE3(frames.targets[0]).inverse()
         return self._with([first, *others[: self._joints - 1]], tool)
 
     def found(self, parameters: np.ndarray) -> Frames:
-        """The frames at both ends as the parameters have them."""
+        """The frames at both ends, moved by the parameters."""
         base, *_ = twists = [pin.exp6(pin.Motion(twist)) for twist in self.twists(parameters)]
         frames, found = self.frames, dict[str, Any](sockets=self.sockets(parameters))
         if frames.base_unknown:
@@ -235,16 +235,16 @@ class ErrorModel:
     def standing(
         self, parameters: np.ndarray, joints: np.ndarray, terms: np.ndarray | None = None
     ) -> np.ndarray:
-        """Where the joints stand (n, joints) [rad, m]; see `linearise`."""
+        """The actual joint coordinates (n, joints) [rad, m]: the reported ones plus errors."""
         terms = self.terms(joints) if terms is None else terms
         return joints + np.einsum("ntj,tj->nj", terms, self._coefficients(parameters))
 
     def predict(
         self, parameters: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
     ) -> np.ndarray:
-        """Poses (n, 4, 4) of targets in the frame of the instrument [m], by parameters (P,).
+        """Poses (n, 4, 4) [m] of targets in the frame of the instrument, for parameters (P,).
 
-        The controller assumes joints (n, joints) [rad, m]. Targets (n,) are the numbers of the
+        The controller reports joints (n, joints) [rad, m]. `targets` (n,) are the numbers of the
         sights; default: the first.
         """
         standing = self.standing(parameters, joints)
@@ -260,15 +260,15 @@ class ErrorModel:
         targets: np.ndarray | None = None,
         terms: np.ndarray | None = None,
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) by the parameters.
+        """Poses (n, 4, 4) as in `predict`, and their Jacobians (n, 6, P) by the parameters.
 
         A Jacobian maps a change of the parameters to the target's translation [m] and turn [rad]
-        along the axes of the instrument. The `terms` of the joints depend on no parameter: one
-        evaluation serves all.
+        along the axes of the instrument. The joint `terms` do not depend on the parameters: they
+        may be evaluated once for all calls.
         """
         terms = self.terms(joints) if terms is None else terms
         standing = self.standing(parameters, joints, terms)
-        # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): it moves what the twist places
+        # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): a motion in the frame of the placed joint
         motions = [
             nominal.inverse().action @ pin.Jexp6(pin.Motion(twist))
             for nominal, twist in zip(self._placements, self.twists(parameters), strict=True)
@@ -279,8 +279,8 @@ class ErrorModel:
         for sight, rows in by_sight(targets, len(joints)):
             arm, (start, end) = self.arm(parameters, sight), self._ends[sight]
             poses[rows], by_joint, placements = arm.forward_and_all_jacobians(standing[rows])
-            own = np.stack([motions[start], *motions[1:count], motions[end]])
-            by_link = placements.reshape(-1, count + 1, 6).swapaxes(0, 1) @ own
+            by_twist = np.stack([motions[start], *motions[1:count], motions[end]])
+            by_link = placements.reshape(-1, count + 1, 6).swapaxes(0, 1) @ by_twist
             by_link = by_link.swapaxes(0, 1).reshape(len(by_joint), 6, -1)
             jacobians[rows, :, 6:links] = by_link[..., 6:links]
             jacobians[rows, :, 6 * start : 6 * start + 6] = by_link[..., :6]
@@ -291,7 +291,7 @@ class ErrorModel:
 
 
 def by_sight(sights: np.ndarray | None, count: int) -> list[tuple[int, slice | np.ndarray]]:
-    """Each sight that there are rows of, with its rows."""
+    """Each sight that occurs in the rows, with its rows."""
     if sights is None or not np.any(sights):
         return [(0, slice(count))]
     return [(sight, np.flatnonzero(sights == sight)) for sight in np.unique(sights)]

@@ -1,4 +1,4 @@
-"""The frames of instruments and targets: known, or parameters like the rest."""
+"""The frames of instruments and targets: known, or estimated like the other parameters."""
 
 from dataclasses import dataclass, field, replace
 
@@ -6,43 +6,42 @@ import numpy as np
 
 from recalib.identification.model.optics import Optics
 
-# Standard deviations of the parameters before anything is known: what wear and mounting plausibly
-# do to the base of an arm and to a link.
+# Prior standard deviations of the parameters: plausible effects of wear and mounting on the base of
+# an arm and on a link.
 BASE = 0.05, np.radians(5)  # m, rad
 LINK = 0.02, np.radians(0.5)
-UNKNOWN = 0.5, np.radians(30)  # of an unknown frame, around an initial estimate
-HELD = 1e-9  # of what is not identifiable from any observation: it stays as it is
+UNKNOWN = 0.5, np.radians(30)  # of an unknown frame, around its initial estimate
+HELD = 1e-9  # of a parameter that no observation can identify: it stays at its initial value
 
 
 @dataclass(frozen=True)
 class Frames:
-    """The frames at both ends of the arm, as they are before anything is identified.
+    """The frames at both ends of the arm, before the identification.
 
-    If a frame is known, a deviation that is identified there is an error of the arm's base or last
-    link. If it is unknown, the deviation improves its estimate, and the arm's own base or last link
-    stays nominal: it is not identifiable.
+    A deviation that is identified at a known frame is an error of the arm's base or last link. At
+    an unknown frame, it improves the estimate of the frame, and the arm's own base or last link
+    stays nominal, because it is not identifiable.
 
-    Each row is of a sight: an instrument, and a target that it measures.
+    Each row belongs to a sight: an instrument and a target that it measures.
 
     Attributes:
         base: (4, 4) m, the pose of the arm's base in the frame of the (first) instrument.
-        targets: (target, 4, 4) m, their poses in the frame of the tool.
-        sockets: (socket, 3) m, estimates of their centres in the frame of the instrument, which is
-            the arm's base there.
-        base_deviations, target_deviations: of translation [m] and turn [rad], before anything is
-            known.
-        base_unknown, targets_unknown: whether they are estimates.
-        optics_deviations: (o,) of the optics of cameras; default: none.
-        further: (i, 4, 4) m, the pose of the base in the frames of further instruments, if there
-            are any: then all frames are estimates.
-        optics_kinds: (o,) which of `OPTICS` they are; default: the first of them.
+        targets: (target, 4, 4) m, the targets' poses in the frame of the tool.
+        sockets: (socket, 3) m, estimates of the sockets' centres in the frame of the instrument,
+            which is the frame of the arm's base in this case.
+        base_deviations, target_deviations: prior deviations of translation [m] and turn [rad].
+        base_unknown, targets_unknown: whether the frames are estimates.
+        optics_deviations: (o,) prior deviations of the cameras' optics; default: no optics.
+        further: (i, 4, 4) m, the pose of the base in the frames of further instruments. If there
+            are any, all frames are estimates.
+        optics_kinds: (o,) the index of each in `OPTICS`; default: 0, 1, 2, ...
         sights: (s, 2) the numbers of the instrument and of the target of each sight; default: the
             first instrument and each target.
         base_prior, target_prior: (6,) m and rad, standard deviations of the instrument's pose along
-            the axes of the arm's base, and of the targets' along the tool's axes; none if they are
-            unknown or exact. A frame that has them is an estimate.
-        link_deviations, offset_deviation: of links [m, rad] and joint offsets [rad] before anything
-            is known; the latter is by default the prior of the joint terms.
+            the axes of the arm's base, and of the targets' along the tool's axes; empty if a frame
+            is unknown or exact. A frame with such a prior is an estimate.
+        link_deviations, offset_deviation: prior deviations of links [m, rad] and joint offsets
+            [rad]; by default (0), offsets have the prior of the joint terms.
     """
 
     base: np.ndarray = field(default_factory=lambda: np.eye(4))
@@ -74,7 +73,7 @@ class Frames:
         return np.concatenate([self.base[None], self.further])
 
     def with_priors(self, base: np.ndarray | None, target: np.ndarray | None) -> "Frames":
-        """The same, of which one or both are known within deviations (6,), see above."""
+        """The same frames, of which one or both are known within deviations (6,); see above."""
         frames = self
         if base is not None:
             frames = replace(frames, base_prior=base, base_unknown=True, base_deviations=UNKNOWN)
@@ -84,11 +83,11 @@ class Frames:
         return replace(frames, target_deviations=UNKNOWN)
 
     def with_optics(self, optics: Optics) -> "Frames":
-        """The same, with the optics of cameras as parameters."""
+        """The same frames, with the optics of cameras as parameters."""
         return replace(self, optics_deviations=optics.deviations, optics_kinds=optics.kinds)
 
 
 def nearest_rotation(matrix: np.ndarray) -> np.ndarray:
-    """The rotation R (3, 3) of the largest trace of R' M; by a matrix's scale nothing changes."""
+    """The rotation R (3, 3) that maximises the trace of R' M; the scale of M does not matter."""
     left, _, right = np.linalg.svd(matrix)
     return left @ np.diag([1, 1, np.linalg.det(left @ right)]) @ right

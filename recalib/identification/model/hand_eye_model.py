@@ -1,17 +1,18 @@
-"""A hand-eye calibration's data, and its model of an arm that is not exact.
+"""The data of a hand-eye calibration, and its model of an inexact arm.
 
-The board is at M_i = X^-1 G_i Z in the camera. X is the pose of the camera on its side of the arm,
-Z the pose of the board on the other side. G_i leads from one side to the other: the flange's pose
-F_i in the base if the camera is next to the arm, and its inverse if the camera is on the hand.
+The pose of the board in the camera is M_i = X^-1 G_i Z. X is the pose of the camera at its end of
+the arm (base or flange), Z the pose of the board at the other end. G_i leads from one end to the
+other: it is the flange's pose F_i in the base if the camera is next to the arm, and the inverse of
+F_i if the camera is on the hand.
 
-The flange is not where the controller says. So the residual r_i, which takes the predicted pose of
-the board to the measured one, has the covariance
+The flange is not exactly at the reported pose. So the residual r_i, the displacement from the
+predicted pose of the board to the measured one, has the covariance
 
-    C_i = S_i + A_i D A_i',    D = diag(p^2, p^2, p^2, a^2, a^2, a^2),
+    C_i = S_i + A_i D A_i',    D = diag(p^2, p^2, p^2, a^2, a^2, a^2).
 
-where S_i is the covariance by the corners' noise, A_i turns a displacement of the flange into one
-of the board in the camera, and (p, a) is the pose accuracy of the arm. The lens and the scale of
-the print are parameters, too; see `recalib.identification.model.optics`.
+S_i is the covariance from the corners' noise, A_i maps a displacement of the flange to one of the
+board in the camera, and (p, a) is the pose accuracy of the arm. The lens and the scale of the print
+are parameters, too; see `recalib.identification.model.optics`.
 """
 
 from dataclasses import dataclass, replace
@@ -23,10 +24,10 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.model.linearisation import LEVER, displacements
 from recalib.identification.model.optics import Optics
 
-CAMERA, TARGET = slice(6), slice(6, 12)  # which parameters are of the camera and of the board
+CAMERA, TARGET = slice(6), slice(6, 12)  # the indices of the camera's and the board's parameters
 ENDS = TARGET.stop
-EXACT = 1e-12  # m^2, rad^2: the variance of a pose that a table gives
-OUTLIER = 0.25  # the weight of a pose that is doubted
+EXACT = 1e-12  # m^2, rad^2: the variance of a pose from a table
+OUTLIER = 0.25  # poses with less weight are outliers
 
 
 @dataclass(frozen=True)
@@ -34,12 +35,12 @@ class Sights:
     """Poses of a flange, and of a board in a camera.
 
     Attributes:
-        flange: (n, 4, 4) m, in the arm's base, by the controller.
+        flange: (n, 4, 4) m, in the arm's base, as reported by the controller.
         board: (n, 4, 4) m, in the camera, as measured.
         in_hand: whether the camera is on the hand.
-        optics: what pictures say of the board's poses; None if a table gives these.
-        height: m, the z coordinate of the board's origin in the base if the camera is on the hand,
-            else in the flange, and its standard deviation; None if it is unknown.
+        optics: the pictures' information on the board's poses; None for poses from a table.
+        height: the z coordinate [m] of the board's origin, in the base if the camera is on the
+            hand, else in the flange; and its standard deviation [m]. None if it is unknown.
     """
 
     flange: np.ndarray
@@ -57,12 +58,12 @@ class Sights:
 
     @cached_property
     def between(self) -> np.ndarray:
-        """G (n, 4, 4): from the camera's side of the arm to the board's."""
+        """G (n, 4, 4): the poses of the board's end of the arm in the camera's end."""
         return np.linalg.inv(self.flange) if self.in_hand else self.flange
 
     @cached_property
     def corners(self) -> Optics:
-        """What corners say; of poses in a table, nothing."""
+        """The information from corners; for poses from a table, there is none."""
         if self.optics is not None:
             return self.optics
         exact, none = np.tile(EXACT * np.eye(6), (len(self), 1, 1)), np.zeros((len(self), 6, 0))
@@ -70,9 +71,9 @@ class Sights:
 
     @property
     def axes(self) -> tuple[np.ndarray, np.ndarray]:
-        """How far [deg] the flange turned about three axes, the most first; these (3, 3), in rows.
+        """Ranges (3,) [deg] of the flange's turns about three axes, largest first, and these axes.
 
-        Each is about the middle orientation, in the base.
+        The turns are from the mean orientation; the axes are the rows (3, 3), in the base frame.
         """
         middle = Rotation.from_matrix(self.flange[:, :3, :3]).mean()
         turns = Rotation.from_matrix(self.flange[:, :3, :3] @ middle.as_matrix().T).as_rotvec()
@@ -85,14 +86,15 @@ class HandEye:
     """A hand-eye calibration.
 
     Attributes:
-        sights: by which it was found.
+        sights: the data.
         camera: X (4, 4) m, in the flange if it is on the hand, else in the base.
         board: Z (4, 4) m, in the base if the camera is on the hand, else in the flange.
         optics: (o,) corrections; see `Optics`.
-        accuracy: m and rad, the standard deviation of the flange's pose along and about each axis.
-        noise: m and rad, the same of poses in a table, along the line of sight and about each axis.
-        covariance: (12 + o, 12 + o) of camera, board [m, rad, along the axes of the frames in which
-            they are] and optics.
+        accuracy: m and rad, standard deviations of the flange's pose along and about each axis.
+        noise: m and rad, additional standard deviations of poses from a table, along the line of
+            sight and about each axis.
+        covariance: (12 + o, 12 + o) of camera, board and optics; poses are in m and rad, along the
+            axes of the frames in which they are given.
         weights: (n,) up to about 1; small if a pose is doubtful.
     """
 
@@ -107,7 +109,7 @@ class HandEye:
 
     @classmethod
     def at(cls, sights: Sights, camera: np.ndarray, board: np.ndarray) -> "HandEye":
-        """One with these places, before anything else is known."""
+        """A calibration with these poses of camera and board, and all else at its default."""
         optics, nothing = np.zeros(sights.corners.slopes.shape[-1]), np.zeros(2)
         blank = optics, nothing, nothing, np.zeros((ENDS + len(optics), ENDS + len(optics)))
         return cls(sights, camera, board, *blank, np.ones(len(sights)))
@@ -117,28 +119,28 @@ class HandEye:
         return np.linalg.inv(self.camera) @ sights.between @ self.board
 
     def residuals(self, sights: Sights) -> np.ndarray:
-        """What takes predicted poses of the board to the measured ones: (n, 6) m, rad."""
+        """Displacements (n, 6) [m, rad] from the predicted poses of the board to the measured."""
         there = displacements(self.predict(sights), sights.board)
         return there + sights.corners.slopes @ self.optics
 
     @property
     def misfit(self) -> float:
-        """m, the median of what remains; a turn counts by `LEVER`."""
+        """The median residual [m], in which a turn of one rad counts as `LEVER`."""
         residuals = self.residuals(self.sights) * np.repeat([1.0, LEVER], 3)
         return float(np.median(np.linalg.norm(residuals, axis=1)))
 
     @property
     def outliers(self) -> np.ndarray:
-        """Numbers (from 0) of the poses that have hardly any weight."""
+        """The numbers, from 0, of the poses with hardly any weight."""
         return np.flatnonzero(self.weights < OUTLIER)
 
     def deviations(self, part: int) -> tuple[float, float]:
-        """m, rad: standard deviations of the camera (0) or board (1) along the worst axis."""
+        """Standard deviations [m, rad] of the camera (0) or board (1) along their worst axes."""
         return worst_axes(self.covariance[6 * part : 6 * part + 6, 6 * part : 6 * part + 6])
 
 
 def worst_axes(covariance: np.ndarray) -> tuple[float, float]:
-    """m, rad: standard deviations along the worst axes, by a covariance (6, 6) of a pose."""
+    """Standard deviations [m, rad] along the worst axes, from a pose's covariance (6, 6)."""
     blocks = covariance[:3, :3], covariance[3:, 3:]
     worst = (float(np.linalg.eigvalsh(block)[-1]) for block in blocks)
     position, turn = (float(np.sqrt(max(0.0, variance))) for variance in worst)
@@ -146,13 +148,13 @@ def worst_axes(covariance: np.ndarray) -> tuple[float, float]:
 
 
 class LinearHandEye:
-    """The residuals of a calibration, and how they move with its parameters and with the arm."""
+    """The residuals of a calibration, and their slopes by its parameters and by the flange."""
 
     def __init__(self, found: HandEye):
         self.found, sights = found, found.sights
         predicted = found.predict(sights)
-        to_camera = np.tile(found.camera[:3, :3].T, (len(sights), 1, 1))  # from X's side
-        from_board = to_camera @ sights.between[:, :3, :3]  # from Z's side
+        to_camera = np.tile(found.camera[:3, :3].T, (len(sights), 1, 1))  # from the camera's end
+        from_board = to_camera @ sights.between[:, :3, :3]  # from the board's end
         self.residuals = found.residuals(sights)
         slopes = np.zeros((len(sights), 6, ENDS + len(found.optics)))
         slopes[:, :3, :3] = slopes[:, 3:, 3:6] = -to_camera
@@ -160,10 +162,10 @@ class LinearHandEye:
         slopes[:, :3, 6:9] = slopes[:, 3:, 9:12] = from_board
         slopes[..., ENDS:] = -sights.corners.slopes
         self.slopes = slopes
-        # how the board moves in the camera with the flange, along and about the camera's axes
+        # slopes of the board in the camera by the flange, along and about the camera's axes
         flange = found.board if sights.in_hand else sights.flange @ found.board
         lever = flange[..., :3, 3] - sights.flange[:, :3, 3]
-        turn = from_board if sights.in_hand else to_camera  # from the base
+        turn = from_board if sights.in_hand else to_camera  # from the base frame to the camera's
         self.by_flange = np.zeros((len(sights), 6, 6))
         self.by_flange[:, :3, :3] = self.by_flange[:, 3:, 3:] = turn
         self.by_flange[:, :3, 3:] = -turn @ _crosses(lever)
@@ -185,7 +187,7 @@ class LinearHandEye:
     def normal_equations(
         self, precisions: np.ndarray, weights: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """The information (p, p) and the gradient (p,) of all that is known."""
+        """The information (p, p) and the gradient (p,), from rows, corners and priors."""
         found, corners = self.found, self.found.sights.corners
         weighted = np.einsum("n,nij,nik->njk", weights, precisions, self.slopes)
         information = np.einsum("nji,njk->ik", self.slopes, weighted)
@@ -210,10 +212,10 @@ class LinearHandEye:
         scaled = information * scale * scale[:, None] + 1e-9 * np.eye(len(scale))
         gain = (gradient * scale) @ np.linalg.solve(scaled, gradient * scale)
         squares = np.einsum("n,ni,nij,nj->", weights, rows, precisions, rows) - gain
-        whole = np.linalg.slogdet(scaled)[1] - 2 * np.log(scale).sum()
-        return float(np.linalg.slogdet(covariances)[1][weights > 0].sum() + squares + whole)
+        volume = np.linalg.slogdet(scaled)[1] - 2 * np.log(scale).sum()
+        return float(np.linalg.slogdet(covariances)[1][weights > 0].sum() + squares + volume)
 
 
 def _crosses(vectors: np.ndarray) -> np.ndarray:
-    """Matrices (n, 3, 3) by which a cross product with vectors (n, 3) from the left is taken."""
+    """Skew-symmetric matrices (n, 3, 3) of the cross products with vectors (n, 3) on the left."""
     return np.cross(vectors[:, None], np.eye(3)).swapaxes(1, 2)

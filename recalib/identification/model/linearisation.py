@@ -1,9 +1,9 @@
 """Residuals of observations, linearised in the parameters.
 
-A residual is what takes the predicted pose to the measured one: translation [m] and rotation [rad]
-along the instrument's axes, or the translation alone where no orientation was measured; a ball in a
-socket was measured to be at the socket's centre, which is a parameter itself. What a camera
-measured is weighed by its optics.
+A residual is the displacement from the predicted pose to the measured one: translation [m] and
+rotation [rad] along the instrument's axes, or the translation alone if no orientation was measured.
+The measured position of a ball is the centre of its socket, which is a parameter itself. Poses from
+cameras are weighted by their optics.
 """
 
 from collections.abc import Iterator
@@ -15,14 +15,14 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.observations import Observations
 
-LEVER = 0.5  # m: what a turn of one rad counts as, where both are one number
-BLOCK = 1000  # rows at once: more would take memory, and no less time
+LEVER = 0.5  # m: the length that a turn of one rad counts as in sums of lengths and turns
+BLOCK = 1000  # rows at once: more would take more memory, but no less time
 
 
 def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes poses (n, 4, 4) to others: (n, 6) [m, rad] along and about their frame's axes.
+    """Displacements (n, 6) [m, rad] from poses to poses (n, 4, 4), along their frame's axes.
 
-    What takes them to positions (n, 3): the translations (n, 3) alone.
+    If the end is positions (n, 3), the translations (n, 3) alone.
     """
     if end.ndim == 2:
         return end - start[:, :3, 3]
@@ -40,10 +40,10 @@ def displaced(pose: np.ndarray, step: np.ndarray) -> np.ndarray:
 
 
 class Linearisation:
-    """Residuals and their slopes by the parameters over their deviations.
+    """Residuals, and the predictions' slopes by the parameters over their deviations.
 
     Args:
-        parameters: (P,) over their deviations, where to linearise.
+        parameters: (P,) over their deviations, at which to linearise.
         terms: (n, term, joints) of the observations, for speed: they depend on no parameter.
 
     Attributes:
@@ -66,15 +66,15 @@ class Linearisation:
         for first in range(0, len(observations), BLOCK):
             block = slice(first, first + BLOCK)
             batch = observations[block]
-            own = None if terms is None else terms[block]
-            poses, jacobians = model.linearise(parameters, batch.joints, batch.targets, own)
+            in_block = None if terms is None else terms[block]
+            poses, jacobians = model.linearise(parameters, batch.joints, batch.targets, in_block)
             if batch.measured is None:
-                # where the centre goes, the residual goes: the other way than with the prediction
+                # the centre is the measurement, so its sign is opposite to that of a prediction
                 by_centre = jacobians[:, :3, model.socket_columns].reshape(len(batch), 3, -1, 3)
                 by_centre[np.arange(len(batch)), :, batch.sockets] = -np.eye(3)
                 jacobians[:, :3, model.socket_columns] = by_centre.reshape(len(batch), 3, -1)
             residuals = displacements(poses, batch.reached(model.sockets(parameters)))
-            if batch.optics is not None:  # measured poses move with them: the other way
+            if batch.optics is not None:  # they move the measured poses: the sign is opposite, too
                 columns = model.optics_columns
                 residuals += batch.optics.slopes @ parameters[columns]
                 jacobians = jacobians[:, : residuals.shape[1]]
@@ -99,7 +99,7 @@ class Linearisation:
     def normal_equations(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """J' W J (kind, P, P) and J' W r (kind, P), with weights (n,) up to 1 of the rows."""
         information, doubted = self._information, np.flatnonzero(weights < 1)
-        if len(doubted):  # they are few: take off their surplus
+        if len(doubted):  # they are few, so subtract their excess weight
             information = information.copy()
             for kind, rows in self._scaled(doubted, np.sqrt(1 - weights[doubted])):
                 information[kind] -= rows.T @ rows
@@ -117,8 +117,8 @@ class Linearisation:
         return information
 
     def _scaled(self, rows: np.ndarray, factors: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
-        """Kinds, each with Jacobians (row, P) of some rows times their factors, in blocks."""
+        """Blocks of the Jacobians (row, P) of some rows times their factors, each with its kind."""
         for first in range(0, len(rows), BLOCK):
-            block, by = rows[first : first + BLOCK], factors[first : first + BLOCK, None, None]
+            block, scale = rows[first : first + BLOCK], factors[first : first + BLOCK, None, None]
             for kind, jacobians in enumerate(self.jacobians):
-                yield kind, (jacobians[block] * by).reshape(-1, jacobians.shape[-1])
+                yield kind, (jacobians[block] * scale).reshape(-1, jacobians.shape[-1])

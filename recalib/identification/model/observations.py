@@ -1,9 +1,8 @@
 """Measurements of an arm at the joint coordinates that its controller reported.
 
-Three kinds of rows, one kind to a set of observations: the pose of a target on the tool, or its
-position, in the frame of the instrument; or a ball on the tool that sits in a socket, of which
-nothing is known but that the socket stays where it is. That takes no instrument at all. Rows
-that cannot be measurements are refused.
+A set of observations has rows of one of three kinds: the pose of a target on the tool, in the frame
+of the instrument; its position; or a ball on the tool that sits in a fixed socket at an unknown
+position, which needs no instrument. Rows that cannot be measurements are refused.
 """
 
 from collections.abc import Sequence
@@ -17,7 +16,7 @@ from recalib.identification.model.frames import Frames
 from recalib.identification.model.optics import Optics
 from recalib.loop.external import FARTHEST, POSE, are_poses
 
-TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians
+TURNED = 4 * np.pi  # rad: larger joint angles are impossible, or not in radians
 
 
 class Distance(NamedTuple):
@@ -34,7 +33,7 @@ class Observations:
     """Measurements of an arm.
 
     Attributes:
-        joints: (n, joints) rad, or m where a joint slides, that the controller reported.
+        joints: (n, joints) rad, or m for prismatic joints, as the controller reported them.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of a target in the instrument's frame;
             None for a ball in sockets.
         targets: (n,) the number of the target or ball (of the sight if there are several
@@ -42,9 +41,9 @@ class Observations:
         sockets: (n,) the number of the ball's socket; None if an instrument measured.
         distances: known distances between sockets.
         times: (n,) s, in ascending order; None if none were recorded.
-        optics: information of poses from cameras; None if all rows have equal weight.
+        optics: the information of poses from cameras; None if all rows have equal weight.
 
-    Raises InvalidSetting: no array of joints, or another number of rows than it has.
+    Raises InvalidSetting: joints are no array, or another array has a different number of rows.
     """
 
     joints: np.ndarray
@@ -60,7 +59,7 @@ class Observations:
         for name in ("measured", "targets", "sockets", "times"):
             values, count = getattr(self, name), len(self.joints)
             if values is not None and np.shape(values)[:1] != (count,):
-                valid = f"an array of {count} rows, as of joints"
+                valid = f"an array of {count} rows, as joints has"
                 raise InvalidSetting(name, f"of shape {np.shape(values)}", valid)
         if self.targets is None:
             object.__setattr__(self, "targets", np.zeros(len(self.joints), dtype=int))
@@ -69,60 +68,60 @@ class Observations:
         return len(self.joints)
 
     def __getitem__(self, rows: np.ndarray | slice) -> "Observations":
-        """Some of the rows, by their numbers, by a mask or by a slice."""
+        """The observations in some rows, given by number, by a mask or by a slice."""
         by_row = vars(self) | {"distances": None}
         some = {name: values[rows] for name, values in by_row.items() if values is not None}
         return replace(self, **some)
 
     def with_noise(self, covariance: np.ndarray) -> "Observations":
-        """The same by cameras, where displacements have further noise of a covariance (6, 6)."""
+        """The same observations by cameras, with a covariance (6, 6) added to their noise."""
         assert self.optics is not None
         return replace(self, optics=self.optics.with_noise(covariance))
 
     def whitened(self, columns: np.ndarray) -> np.ndarray:
-        """Displacements (n, 6, ...) of poses, weighted by their optics if there are any."""
+        """Displacements (n, 6, ...) of poses, whitened by their optics if there are any."""
         if self.optics is None:
             return columns
         return np.einsum("nij,nj...->ni...", self.optics.whitening, columns)
 
     @property
     def positions(self) -> np.ndarray:
-        """Measured positions (n, 3) [m]; not for balls in sockets."""
+        """Measured positions (n, 3) [m]; undefined for balls in sockets."""
         assert self.measured is not None
         return self.measured if self.kinds == 1 else self.measured[:, :3, 3]
 
     @property
     def rotations(self) -> np.ndarray:
-        """Measured orientations (n, 3, 3), if kinds are 2."""
+        """Measured orientations (n, 3, 3); only if `kinds` is 2."""
         assert self.measured is not None
         return self.measured[:, :3, :3]
 
     def reached(self, sockets: np.ndarray) -> np.ndarray:
-        """Where the targets were, as `measured`; in sockets, by their centres (socket, 3) [m]."""
+        """The targets' `measured` poses or positions; for balls, their sockets' centres [m]."""
         return sockets[self.sockets] if self.measured is None else self.measured
 
     @property
     def kinds(self) -> int:
-        """The quantities in a row: 2 for position and orientation, 1 for a position alone."""
+        """The number of quantities in a row: 2 for position and orientation, 1 for position."""
         return 2 if self.measured is not None and self.measured.ndim == 3 else 1
 
     @property
     def series(self) -> np.ndarray:
-        """By number (n,): the series that a row is of, in whose order it was measured.
+        """The number (n,) of each row's series: its rows are in the order of measurement.
 
-        Each camera takes pictures of a board by itself; all other rows are one series.
+        The pictures of each board by each camera are one series; so are all other rows together.
         """
         return 0 * self.targets if self.optics is None else self.targets
 
     @property
     def groups(self) -> np.ndarray:
-        """By number (n,): which target, or which ball in which socket, a row is of."""
+        """The number (n,) of each row's group: a target, or a ball in a socket."""
         labels = self.targets if self.sockets is None else np.stack([self.targets, self.sockets])
         return np.unique(labels, return_inverse=True, axis=-1)[1]
 
 
 def check_observations(observations: Observations, slides: np.ndarray, frames: Frames) -> None:
-    """Raise BadMeasurement unless rows fit the frames, and an arm's joints that slide or turn."""
+    """Raise BadMeasurement if rows do not fit the frames or the arm's joints, prismatic or not."""
     count = len(observations)
     if count == 0:
         raise BadMeasurement("the number of observations", [0], "one or more")
@@ -158,7 +157,7 @@ def check_observations(observations: Observations, slides: np.ndarray, frames: F
 
 
 def check_rows(observations: Observations) -> None:
-    """Raise BadMeasurement unless all rows are numbers, and all measured matrices are poses."""
+    """Raise BadMeasurement unless all numbers are finite, and all measured matrices are poses."""
     joints, measured = observations.joints, observations.measured
     _check_each("joint angles of measurement", joints, np.isfinite(joints), "numbers")
     if measured is not None:
@@ -168,7 +167,7 @@ def check_rows(observations: Observations) -> None:
 
 
 def _check_each(what: str, values: np.ndarray, good: np.ndarray, valid: str) -> None:
-    """Raise BadMeasurement for the first row (n, ...) of which not all is good."""
+    """Raise BadMeasurement for the first row (n, ...) with an element that is not good."""
     rows = good.reshape(len(good), -1).all(axis=1)
     if not rows.all():
         row = rows.argmin()

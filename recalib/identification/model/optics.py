@@ -1,15 +1,15 @@
-"""Poses that were measured by cameras: how sure they are, and how they depend on their optics.
+"""Poses measured by cameras: their uncertainty, and their dependence on lens and board.
 
-Errors of the assumed lens and board move all poses together: they are parameters of the fit, like
-the arm's.
+Errors of the assumed lens and board move all poses together. They are parameters of the fit, like
+those of the arm.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-# By name, with its unit, the size of that in what parameters are in, and the standard deviation
-# before any picture is taken, in that unit. A printer scales by a thousandth.
+# Each has a name, a unit, the size of this unit in the unit of the parameters, and the prior
+# standard deviation in this unit. A printer's scale is off by about a thousandth.
 BOARD = (("print scale along x", "%", 0.01, 0.1), ("print scale along y", "%", 0.01, 0.1))
 OPTICS = (
     *BOARD,
@@ -30,15 +30,15 @@ class Optics:
     have zeros for boards and cameras other than their own.
 
     Attributes:
-        spread: (n, 6, 6) covariances of displacements, by the noise of the corners.
-        slopes: (n, 6, o) by which measured poses move with the optics.
-        information: (n, o, o) of the pictures on the optics, for any poses.
-        gradient: (n, o) that goes with it: its sum is zero for the best optics of the pictures.
-        pixels: (n, 6, 6) to vectors as long as the root mean square of what corners move [px].
-        whitening: (n, 6, 6) to displacements whose components are independent, and as large as
-            a typical row's: in its first three m, then rad.
-        kinds: (o,) which of `OPTICS` each is; default: the first of them, of one board and one
-            camera.
+        spread: (n, 6, 6) covariances of displacements from the noise of the corners.
+        slopes: (n, 6, o) of the measured poses by the optics.
+        information: (n, o, o) of the pictures on the optics, whatever the poses are.
+        gradient: (n, o) that belongs to the information; its sum is zero at the best optics.
+        pixels: (n, 6, 6) maps displacements to vectors whose norm is the corners' rms motion [px].
+        whitening: (n, 6, 6) maps displacements to independent components, scaled to the noise of a
+            typical row: three in m, then three in rad.
+        kinds: (o,) the index of each parameter in `OPTICS`; default: 0, 1, 2, ..., for one board
+            and one camera.
     """
 
     spread: np.ndarray
@@ -50,13 +50,13 @@ class Optics:
     kinds: np.ndarray = None  # type: ignore[assignment]  # likewise
 
     def __post_init__(self) -> None:
-        if self.whitening is None:  # of an arm that returns to a posture without any error
+        if self.whitening is None:  # as for an arm of perfect repeatability
             object.__setattr__(self, "whitening", _whitening(self.spread))
         if self.kinds is None:
             object.__setattr__(self, "kinds", np.arange(self.slopes.shape[-1]))
 
     def with_noise(self, covariance: np.ndarray) -> "Optics":
-        """The same, where displacements have further noise of a covariance (6, 6)."""
+        """The same optics, with a covariance (6, 6) added to the noise of displacements."""
         return replace(self, whitening=_whitening(self.spread + covariance))
 
     def __getitem__(self, rows: np.ndarray | slice) -> "Optics":
@@ -65,31 +65,31 @@ class Optics:
 
     @property
     def length(self) -> float:
-        """m, the root mean square of what the noise of a picture moves its position."""
+        """The rms position noise [m] of a picture."""
         return float(np.sqrt(np.trace(self.spread[:, :3, :3], axis1=1, axis2=2).mean()))
 
     def moved(self, displacements: np.ndarray) -> np.ndarray:
-        """How far displacements (n, 6) move corners, each a root mean square: (n,) px."""
+        """The rms motion (n,) [px] of each picture's corners by displacements (n, 6)."""
         return np.linalg.norm(np.einsum("nij,nj->ni", self.pixels, displacements), axis=1)
 
     def across(self, pixels: np.ndarray) -> np.ndarray:
-        """What pixels (n,) are at the board, across the line of sight: (n,) m."""
+        """Lengths (n,) [m] at the board, across the line of sight, of motions (n,) in pixels."""
         return pixels / np.linalg.norm(self.pixels[..., :3], 2, axis=(1, 2))
 
     @property
     def lines(self) -> np.ndarray:
-        """Unit vectors (n, 3) along the lines of sight: no other shift moves corners as little."""
+        """Unit vectors (n, 3) along the lines of sight, the shifts that move corners the least."""
         return np.linalg.svd(self.pixels[..., :3])[2][:, -1]
 
     @property
     def noise(self) -> float:
-        """m, the root mean square of what the noise of a picture moves corners, across its line."""
+        """The rms noise [m] of the corners at the board, across the line of sight."""
         squares = np.einsum("nij,njk,nik->n", self.pixels, self.spread, self.pixels)
         return float(np.sqrt(np.mean(self.across(np.sqrt(squares)) ** 2)))
 
     @property
     def deviations(self) -> np.ndarray:
-        """Standard deviations (o,) of them, before any picture is taken."""
+        """Prior standard deviations (o,) of the optics."""
         return np.array([OPTICS[kind][2] * OPTICS[kind][3] for kind in self.kinds])
 
 
