@@ -20,9 +20,7 @@ from replication.training.trials import Trials
 ITERATIONS = 10_000
 
 
-def halfway(
-    study: Study, design: Path, outcomes: Path, setup: int, replicate: int
-) -> pd.DataFrame:
+def halfway(study: Study, design: Path, outcomes: Path, setup: int, replicate: int) -> pd.DataFrame:
     """The row of Ritter's map after `ITERATIONS`, tuned near its settings for 5,000 iterations."""
     plan, variant = study.search, variants(study)[DOUBLE]
     measured = Replicate(study, read_design(design)[setup], replicate)
