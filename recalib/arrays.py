@@ -19,24 +19,30 @@ def array_of(name: str, given: ArrayLike, *shapes: Shape) -> np.ndarray:
     """
     texts = (f"({', '.join(map(str, shape))}{',' * (len(shape) == 1)})" for shape in shapes)
     valid = f"an array of finite numbers of shape {' or '.join(texts)}"
-    try:
-        array = np.asarray(given)
-    except ValueError:  # rows of different lengths
-        array = np.array(None)
     if np.ma.is_masked(given):
         raise InvalidSetting(name, "masked in places", valid)
-    if array.dtype.kind not in "iuf":
-        raise InvalidSetting(name, type(given).__name__, valid)
+    array = numbers(name, given, valid)
     if not any(_fits(array, shape) for shape in shapes):
         raise InvalidSetting(name, f"of shape {array.shape}", valid)
     if not np.isfinite(array).all():
         raise InvalidSetting(name, "NaN or infinity in places", valid)
-    return array.astype(float)
+    return array.copy()
+
+
+def numbers(name: str, given: ArrayLike, valid: str = "an array of numbers") -> np.ndarray:
+    """Numbers of any shape. Raises InvalidSetting: something else."""
+    try:
+        array = np.asarray(given)
+    except ValueError:  # rows of different lengths
+        array = np.array(None)
+    if array.dtype.kind not in "iuf":
+        raise InvalidSetting(name, type(given).__name__, valid)
+    return array.astype(float, copy=False)
 
 
 def ending(name: str, given: ArrayLike, *last: int) -> np.ndarray:
-    """An array with these last axes, after any others. Raises InvalidSetting."""
-    array = np.asarray(given)
+    """Numbers with these last axes, after any others. Raises InvalidSetting."""
+    array = numbers(name, given)
     if array.shape[-len(last) :] != last:
         axes = ", ".join(map(str, ("...", *last)))
         raise InvalidSetting(name, f"of shape {array.shape}", f"an array of shape ({axes})")

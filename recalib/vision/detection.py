@@ -11,9 +11,9 @@ import numpy as np
 from PIL import Image
 
 from recalib.errors import RecalibError
-from recalib.vision.boards import APRILGRID, CHARUCO, CHESSBOARD, PLAIN, Board
+from recalib.vision.boards import APRILGRID, CHARUCO, CHESSBOARD, FEWEST, PLAIN, Board
 
-FEWEST, FEWEST_MARKERS = 8, 4  # corners, and markers, to go by
+FEWEST_MARKERS = 4  # to go by
 MISPLACED = 0.3  # of a marker's side: beside a plane by so much, most markers are of another board
 OTHERS = "4X4_250", "5X5_250", "6X6_250", "APRILTAG_36H11"
 DRAWN = 64  # px, of a square in a drawing

@@ -327,6 +327,7 @@ def tenfold(poses: np.ndarray) -> np.ndarray:
     return scaled(10.0)(poses)
 
 
+FLIP = np.diag([1.0, -1.0, 1.0, 1.0])
 INVERSE = "the flange's poses are those of the base in it"
 MOVING = "angles about the moving axes z, y, x"
 FAULTS = {
@@ -346,6 +347,10 @@ FAULTS = {
     "other axes": Fault(MOVING, options=("--convention", "XYZ"), way="kuka"),
     "fixed axes": Fault(f"{MOVING} (--convention)", options=("--convention", "fanuc"), way="kuka"),
     "the other side": Fault("--camera ", otherwise=True),
+    "left-handed": Fault(
+        "the poses of one table are of a left-handed frame",
+        change=lambda poses: FLIP @ poses @ FLIP,
+    ),
     "larger": Fault("larger than described", change=scaled(1.04)),
     "smaller": Fault("smaller than described", change=scaled(0.97)),
     "millimetres as metres": Fault("Is its unit right?", change=scaled(1e3)),
@@ -436,6 +441,22 @@ def test_four_axes_need_a_height(in_hand, tables, tmp_path, capsys):
     place = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())["camera"]
     length = 1e-3 * float(place["deviation"][0].split()[0])
     assert off(np.array(place["matrix"]), cell.camera)[0] < 4 * length
+
+
+@pytest.mark.parametrize("lean", [5, 20])
+@pytest.mark.parametrize("seed", range(3))
+def test_of_an_axis_that_leans_the_places_are_right_or_refused(seed, lean, tables, tmp_path):
+    """By heights alone, a camera has come out kilometres away."""
+    cell = HandEyeCell(seed, True, four_axes=True)
+    tables(cell)
+    base = turned(np.radians([[lean, 0.0, 0.0]]))[0]
+    flange = cell.flange(POSES)
+    (tmp_path / "poses.txt").write_text(written(base @ cell.reported(flange)))
+    (tmp_path / "targets.txt").write_text(written(cell.board_poses(flange)))
+    height = f"{1e3 * (base @ cell.target)[2, 3]:.4f} mm"
+    if calibrate("--height", height, camera="hand") == DONE:
+        place = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())["camera"]
+        assert off(np.array(place["matrix"]), cell.camera)[0] < 0.05
 
 
 def test_a_height_that_contradicts_the_poses_is_named(tables, capsys):
