@@ -26,6 +26,7 @@ FINEST, COARSEST = 1e-7, 1.0  # m, rad: no arm is as accurate, or as bad
 FOLDS = 30
 EQUAL = 0.05  # rad: angles that may be the same
 TURNS = 24  # about the only axis, to start from
+OPEN = 1e-3  # of singular values: along the axis, rounding would take the places kilometres away
 ONE_AXIS = 1.5  # deg: turns about a second axis that are smaller determine nothing
 
 
@@ -94,7 +95,8 @@ def _about_one_axis(
         unit = np.tile(-np.eye(3), (len(board), 1, 1))
         system = np.concatenate([between[:, :3, :3], unit], axis=2).reshape(-1, 6)
         goal = board[:, :3, 3] @ turn.T - between[:, :3, 3]
-        ends[1, :3, 3], ends[0, :3, 3] = np.linalg.lstsq(system, goal.ravel())[0].reshape(2, 3)
+        best = np.linalg.lstsq(system, goal.ravel(), rcond=OPEN)[0]
+        ends[1, :3, 3], ends[0, :3, 3] = best.reshape(2, 3)
         yield ends[0], ends[1]
 
 
