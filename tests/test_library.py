@@ -275,7 +275,6 @@ def test_a_wrong_call_is_refused_with_what_was_expected():
 
 MISUSE = """
 import recalib
-from recalib.station import cells_of
 
 def robots(one: recalib.Plant, own: recalib.ExternalRobot) -> None:
     taken: list[recalib.Commandable] = [one, own]
