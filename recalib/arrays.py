@@ -19,24 +19,30 @@ def array_of(name: str, given: ArrayLike, *shapes: Shape) -> np.ndarray:
     """
     texts = (f"({', '.join(map(str, shape))}{',' * (len(shape) == 1)})" for shape in shapes)
     valid = f"an array of finite numbers of shape {' or '.join(texts)}"
-    try:
-        array = np.asarray(given)
-    except ValueError:  # rows of different lengths
-        array = np.array(None)
     if np.ma.is_masked(given):
         raise InvalidSetting(name, "a masked array", valid)
-    if array.dtype.kind not in "iuf":
-        raise InvalidSetting(name, type(given).__name__, valid)
+    array = numbers(name, given, valid)
     if not any(_fits(array, shape) for shape in shapes):
         raise InvalidSetting(name, f"of shape {array.shape}", valid)
     if not np.isfinite(array).all():
         raise InvalidSetting(name, "an array with NaN or infinity", valid)
-    return array.astype(float)
+    return array.copy()
+
+
+def numbers(name: str, given: ArrayLike, valid: str = "an array of numbers") -> np.ndarray:
+    """The given numbers as an array of any shape. Raises InvalidSetting if they are not numbers."""
+    try:
+        array = np.asarray(given)
+    except ValueError:  # rows of different lengths
+        array = np.array(None)
+    if array.dtype.kind not in "iuf":
+        raise InvalidSetting(name, type(given).__name__, valid)
+    return array.astype(float, copy=False)
 
 
 def ending(name: str, given: ArrayLike, *last: int) -> np.ndarray:
-    """The given values as an array whose last axes have these sizes. Raises InvalidSetting."""
-    array = np.asarray(given)
+    """The given numbers as an array whose last axes have these sizes. Raises InvalidSetting."""
+    array = numbers(name, given)
     if array.shape[-len(last) :] != last:
         axes = ", ".join(map(str, ("...", *last)))
         raise InvalidSetting(name, f"of shape {array.shape}", f"an array of shape ({axes})")

@@ -19,6 +19,7 @@ import pytest
 
 import recalib
 from recalib.nominal import find_urdf
+from recalib.station import cells_of
 from tests.conftest import ROOT, run
 from tests.laboratory.conftest import in_degrees, in_millimetres, write
 
@@ -103,8 +104,11 @@ def wrong_calls() -> dict[str, Callable[[], object]]:
     schedule = recalib.Schedule(**good)
     learner = recalib.HierarchicalLearner(rules, schedule)
     plant = recalib.Plant(controller, recalib.apply(robot, []))
-    poses, joints = np.zeros((1, 2, 6)), np.zeros((3, 6))
+    poses, joints, chain = np.zeros((1, 2, 6)), np.zeros((3, 6)), recalib.Chain.of(robot.arm)
+    own = recalib.ExternalRobot(robot.workspace, lambda pose: pose)
     arrays = recalib.Observations(joints, joints[:, :3])
+    moved = recalib.Plant(controller, recalib.apply(robot, []))
+    moved.execute(np.zeros((2, 1, 6)))
     postures = np.random.default_rng(0).uniform(-1, 1, (12, 6)) + robot.home
     measured = recalib.Observations(postures, robot.arm.forward(postures))
     found = recalib.GeometricLearner.identify(robot.arm, measured)
@@ -135,6 +139,78 @@ def wrong_calls() -> dict[str, Callable[[], object]]:
             f"gains of {name}": partial(recalib.information_gains, other, joints),
             f"frames from {name}": partial(recalib.initial_frames, robot.arm, other),
         }
+    kinds = {"nothing": None, "a robot": robot, "a number": 3, "words": ["a", "b"], "text": "arm"}
+    ranges = [0.3] * 3, [0.6] * 3
+    for name, other in kinds.items():
+        calls |= {
+            f"a chain of {name}": partial(recalib.Chain.of, other),
+            f"a chain of {name} at its side": partial(recalib.Chain.side_by_side, [other]),
+            f"angles of {name}": partial(chain.forward, other),
+            f"poses of {name}": partial(chain.solve, other, joints),
+            f"a start of {name}": partial(chain.solve, np.ones((3, 4, 4)), other),
+            f"commands of {name}": partial(plant.execute, other),
+            f"moves of {name}": partial(plant.achieve, other),
+            f"moves of one's own of {name}": partial(own.execute, other),
+            f"targets of {name}": partial(controller.targets, other),
+            f"coordinates of {name}": partial(robot.workspace.to_poses, other),
+            f"arms of {name}": partial(recalib.Plant, controller, [other]),
+            f"generators of {name}": partial(
+                recalib.Plant, controller, robot.arm, recalib.Disturbances(), [other]
+            ),
+            f"a home of {name}": partial(recalib.load_robot, urdf, "tool0", other, *ranges),
+            f"a range of {name}": partial(
+                recalib.load_robot, urdf, "tool0", home, other, ranges[1]
+            ),
+            f"shapes of {name}": partial(recalib.load_shapes, other, urdf),
+            f"a row named {name}": partial(
+                recalib.arm_of_table, [recalib.Row(other), recalib.Row(other)]
+            ),
+            f"a joint that slides by {name}": partial(
+                recalib.arm_of_table, [recalib.Row("a", slides=other)]
+            ),
+            f"measured at {name}": partial(recalib.train, plant, learner, poses, poses, other),
+            f"cells of {name}": partial(cells_of, other),
+            f"a box of {name}": partial(
+                recalib.LiveSettings, box=np.eye(3) if other is None else other
+            ),
+            f"a live arm of {name}": partial(
+                recalib.calibrate_live, object, other, "never.csv", recalib.LiveSettings()
+            ),
+            f"live settings of {name}": partial(
+                recalib.calibrate_live, object, robot.arm, "never.csv", other
+            ),
+            f"a station of {name}": partial(
+                recalib.calibrate_live, other, robot.arm, "never.csv", recalib.LiveSettings()
+            ),
+            f"progress to {name}": partial(
+                recalib.calibrate, robot.arm, postures, measured.measured, on_progress=other
+            ),
+            f"a distance of {name}": partial(
+                recalib.calibrate,
+                *(robot.arm, postures),
+                sockets=["a", "b"] * 6,
+                distances={("a", "b"): other},
+            ),
+            f"a program of {name}": partial(
+                recalib.ProgramStation, [] if isinstance(other, list) else other
+            ),
+            f"learned by one that is to command {name}": partial(learner.command, other),
+            f"learned from {name}": partial(learner.learn, other, plant.execute, 0.1),
+            f"a polynomial of {name}": partial(recalib.PolynomialLearner(1).command, other),
+            f"a process of {name}": partial(recalib.GaussianProcessLearner().command, other),
+            f"units of {name}": partial(recalib.RadialLearner(rules, schedule).command, other),
+            f"a calibration of {name}": partial(
+                recalib.GeometricLearner(controller).learn, other, plant.execute, 0.1
+            ),
+        }
+    for key in ("speed", "span", "most", "floor", "error"):
+        for name, other in {"text": "fast", "words": ["a"], "nan": np.nan}.items():
+            calls[f"a live {key} of {name}"] = partial(recalib.LiveSettings, **{key: other})
+    for shape in ((2, 6), (1, 2, 5), (1, 2, 7), (6,), (2, 1, 2, 6)):
+        calls[f"commands of shape {shape}"] = partial(plant.execute, np.zeros(shape))
+        calls[f"moves of shape {shape}"] = partial(plant.achieve, np.zeros(shape))
+    for size in (5, 7):
+        calls[f"{size} offsets"] = partial(recalib.Chain.of, robot.arm, np.zeros(size))
     return calls | {
         "no run": partial(recalib.GaussianProcessLearner, runs=0),
         "half a run": partial(recalib.PolynomialLearner, 1, runs=0.5),
@@ -145,6 +221,27 @@ def wrong_calls() -> dict[str, Callable[[], object]]:
         "one posture for many": partial(recalib.information_gains, found, joints[0]),
         "the learner before the plant": partial(recalib.train, learner, plant, poses, poses, [1]),
         "a damage that is no list": partial(recalib.apply, robot, recalib.Noise()),
+        "no arms": partial(recalib.Plant, controller, []),
+        "no chains": partial(recalib.Chain.side_by_side, []),
+        "no generators": partial(recalib.Plant, controller, robot.arm, recalib.Disturbances()),
+        "other runs than before": partial(moved.execute, np.zeros((3, 1, 6))),
+        "fewer runs than before": partial(moved.execute, np.zeros((1, 1, 6))),
+        "fewer runs than arms": partial(
+            recalib.Plant(controller, [recalib.apply(robot, [])] * 3).execute,
+            np.zeros((2, 1, 6)),
+        ),
+        "poses for others": partial(recalib.position_error, np.ones((3, 4, 4)), np.ones((2, 4, 4))),
+        "limits the wrong way round": partial(
+            *(recalib.load_robot, urdf, "tool0", home, *ranges), limits={"elbow_joint": (3, -3)}
+        ),
+        "limits of one end": partial(
+            *(recalib.load_robot, urdf, "tool0", home, *ranges), limits={"elbow_joint": 3}
+        ),
+        "a tool beyond, in words": partial(
+            *(recalib.load_robot, urdf, "tool0", home, *ranges), beyond="10 cm"
+        ),
+        "a word with a NUL": partial(recalib.ProgramStation, ["a\0b"]),
+        "half a measurement": partial(recalib.train, plant, learner, poses, poses, [0.5]),
         "one pose for many": partial(controller.inverse, np.eye(4)),
         "five coordinates": partial(robot.workspace.to_poses, np.zeros(5)),
         "a point for a pose": partial(recalib.position_error, np.zeros(3), np.zeros(3)),
@@ -258,6 +355,7 @@ import runpy, sys
 from pathlib import Path
 sys.modules |= dict.fromkeys({FOR_STUDIES})
 import recalib
+from recalib.station import cells_of
 assert recalib.__file__.startswith("{tmp_path}"), recalib.__file__
 assert not Path(recalib.__file__).with_name("study").exists()
 for name in {{*recalib.__all__}} - {{"calibrate_pictures"}}:  # which needs OpenCV

@@ -5,14 +5,16 @@ from typing import Any
 
 import numpy as np
 
+from recalib.arrays import ending
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
-from recalib.errors import check_kind
+from recalib.errors import InvalidSetting, check_kind
 from recalib.loop.interfaces import ForwardKinematics, Outcome
 from recalib.nominal import kernels
 from recalib.nominal.chain import Chain
 from recalib.nominal.controller import Controller, Targets
 from recalib.nominal.poses import Workspace
+from recalib.spelling import listed
 
 
 class Plant:
@@ -28,7 +30,8 @@ class Plant:
     Attributes:
         moves: the number of moves commanded in each run.
 
-    Raises InvalidSetting for arguments of other types.
+    Raises InvalidSetting for arguments of other types; its methods raise it for commands of another
+    shape or another number of runs.
     """
 
     def __init__(
@@ -44,6 +47,15 @@ class Plant:
         self._controller = controller
         self._disturbances, self._generators = disturbances, generators
         self._arms = [arms] if isinstance(arms, ForwardKinematics) else [*arms]
+        if not self._arms:
+            raise InvalidSetting("arms", "none", "at least one")
+        for arm in self._arms:
+            check_kind("arm", arm, ForwardKinematics)
+        check_kind("generators", generators, Sequence)
+        for one in generators:
+            check_kind("generator", one, np.random.Generator)
+        if disturbances is not None and not generators:
+            raise InvalidSetting("generators", "none", "one for each disturbed run")
         self._chain = _chain(self._arms)
         self._home = self._forward(np.tile(controller.robot.home, (len(self._arms), 1, 1)))
         self._home_coordinates = self.workspace.to_coordinates(self._home[:, 0])
@@ -62,6 +74,9 @@ class Plant:
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and measure what the robots achieve."""
+        runs = [len(self._refused)] if self.moves else []
+        runs += [] if self._disturbances is None else [len(self._generators)]
+        commands = self._checked(commands, *runs)
         if self.moves == 0:
             self._refused = np.zeros(len(commands), dtype=int)
         self.moves += commands.shape[1]
@@ -85,7 +100,16 @@ class Plant:
 
         These moves have no random errors and are not counted.
         """
-        return self.achieve_targets(self._controller.targets(commands))
+        return self.achieve_targets(self._controller.targets(self._checked(commands)))
+
+    def _checked(self, commands: np.ndarray, *runs: int) -> np.ndarray:
+        """Commands (run, move, 6) of as many runs as before, and as there are arms if several."""
+        array = ending("commands", commands, 6)
+        counts = {*runs, *([len(self._arms)] if len(self._arms) > 1 else [])}
+        if array.ndim != 3 or counts - {len(array)}:
+            valid = f"an array ({listed(map(str, counts or ['runs']), 'and')}, moves, 6)"
+            raise InvalidSetting("commands", f"of shape {array.shape}", valid)
+        return array
 
     def achieve_targets(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
         """Like `achieve`, for joint angles instead of pose commands."""

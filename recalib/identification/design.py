@@ -22,6 +22,8 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     """
     check_kind("calibration", calibration, Calibration)
     joints = array_of("joints", joints, ("n", len(calibration.model.nominal.joints)))
+    if not len(joints):
+        return np.zeros(0)
     return _gains(_spreads(_rows(calibration, joints), calibration.estimate.covariance))
 
 

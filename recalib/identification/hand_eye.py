@@ -27,6 +27,7 @@ FINEST, COARSEST = 1e-7, 1.0  # m, rad: bounds on the accuracy of any arm
 FOLDS = 30
 EQUAL = 0.05  # rad: angles that may be the same
 TURNS = 24  # starting angles about the only axis
+OPEN = 1e-3  # of the largest singular value: smaller ones leave a direction undetermined
 ONE_AXIS = 1.5  # deg: smaller turns about a second axis determine nothing
 
 
@@ -95,7 +96,8 @@ def _about_one_axis(
         unit = np.tile(-np.eye(3), (len(board), 1, 1))
         system = np.concatenate([between[:, :3, :3], unit], axis=2).reshape(-1, 6)
         goal = board[:, :3, 3] @ turn.T - between[:, :3, 3]
-        ends[1, :3, 3], ends[0, :3, 3] = np.linalg.lstsq(system, goal.ravel())[0].reshape(2, 3)
+        best = np.linalg.lstsq(system, goal.ravel(), rcond=OPEN)[0]
+        ends[1, :3, 3], ends[0, :3, 3] = best.reshape(2, 3)
         yield ends[0], ends[1]
 
 

@@ -92,12 +92,16 @@ def calibrate(
     if distances is not None and not isinstance(distances, Mapping):
         valid = "lengths [m] by the names of two sockets"
         raise InvalidSetting("distances", type(distances).__name__, valid)
+    for pair, length in (distances or {}).items():
+        array_of(f"distances[{pair!r}]", length, ())
     pairs = distances_of(
         [
             {"sockets": [*pair] if isinstance(pair, tuple) else pair, "length": f"{length} m"}
             for pair, length in (distances or {}).items()
         ]
     )
+    if not callable(on_progress):
+        raise InvalidSetting("on_progress", type(on_progress).__name__, "a function of a line")
     frames = _frame("instrument", instrument), _frame("target", target)
     rows = Measurements(ARRAYS, moving, poses, columns)
     known = Description({}, *frames, pairs)

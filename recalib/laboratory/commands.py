@@ -3,6 +3,7 @@
 import argparse
 import os
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -18,8 +19,16 @@ from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
 from recalib.laboratory.hand_eye.pose_table import convention_of, read_poses
 from recalib.laboratory.live.allowed import Box
-from recalib.laboratory.options import DONE, IN_HAND, NO_BETTER
-from recalib.laboratory.propose import propose
+from recalib.laboratory.options import (
+    BOARD,
+    BY_POSES,
+    CONE,
+    DONE,
+    IN_HAND,
+    NO_BETTER,
+    OF_ARMS,
+)
+from recalib.laboratory.propose import propose, useful
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report.folder import files_of
 from recalib.laboratory.report.templates import UNITS, render
@@ -43,14 +52,27 @@ def _load(module: str, name: str) -> Any:
 
 def calibrate(options: Options) -> int:
     """Write a folder of results from a table, from folders of pictures, or from flange poses."""
-    if options.poses is not None:
+    if options.poses is None:
+        _without(options, BY_POSES, "--poses", "a table of poses")
+    else:
+        options.board = options.board or BOARD
         if options.urdf is None:
+            _without(options, OF_ARMS, "URDF", "an arm")
             return calibrate_poses(options)
+        if options.measurements:
+            raise InvalidSetting("measurements", str(options.measurements[0]), "none, with --poses")
         options.measurements = [_observed(options)]
     if not options.measurements:
         valid = "URDF and a table, or --poses and --pictures"
         raise InvalidSetting("measurements", None, valid)
     return calibrate_rows(options)
+
+
+def _without(options: Options, names: Sequence[str], missing: str, valid: str) -> None:
+    """Raise InvalidSetting if an option is given that has no effect where another is missing."""
+    for name in names:
+        if getattr(options, name):
+            raise InvalidSetting(missing, None, f"{valid}, for --{name.replace('_', '-')}")
 
 
 def calibrate_poses(options: Options) -> int:
@@ -139,7 +161,7 @@ def correct(options: Options) -> int:
     """Write commands that reach the desired poses."""
     correction, frame = load_correction(options.calibration), options.frame
     arm = correction.arm
-    rows = read_desired(options.desired, arm, target=frame == INSTRUMENT)
+    rows = read_desired(options.desired, arm, target=frame != BASE)
     poses, targets = rows.measured, rows.columns.get(TARGETS.name)
     if poses is None:  # joints alone stand for the pose that the nominal arm has there
         if frame == INSTRUMENT:
@@ -172,7 +194,10 @@ def correct(options: Options) -> int:
 def next(options: Options) -> int:
     """Write the most informative postures or flange poses."""
     if options.poses:
+        if options.candidates is not None:
+            raise InvalidSetting("candidates", str(options.candidates), "none, with --poses")
         return next_poses(options)
+    _without(options, ("box", "cone"), "--poses", "a calibration by them")
     correction = load_correction(options.calibration)
     candidates: np.ndarray | Goals | None = None
     if options.candidates is not None:
@@ -180,6 +205,12 @@ def next(options: Options) -> int:
         candidates = rows.joints
         if rows.measured is not None:
             candidates = Goals.of(rows.measured, rows.joints, correction.arm.coupling)
+    if candidates is not None:
+        given, candidates = len(candidates), useful(correction, candidates)
+        if left := given - len(candidates):
+            why = "out of reach, or with a joint near the end of its range"
+            left_out = f"{left} of {counted(given, 'candidate')} left out: {why}"
+            print(f"recalib: warning: {left_out}", file=sys.stderr)
     joints, deviations = propose(correction, options.count, candidates)
     poses = correction.arm.forward(correction.arm.coupling.joints(joints))
     write_new(options.out, postures_table(correction.arm, joints, poses), ".csv")
@@ -197,7 +228,7 @@ def next_poses(options: Options) -> int:
     """Write the flange poses that are most informative about the camera's pose."""
     propose_poses = _load("laboratory.hand_eye.proposing", "propose_poses")
     box = None if options.box is None else Box.read(options.box)
-    cone = ANGLE.value_of("--cone", options.cone)
+    cone = ANGLE.value_of("--cone", options.cone or CONE)
     poses, deviations = propose_poses(options.calibration, options.count, box, cone)
     write_new(options.out, table_text(pose_rows(poses)), ".csv")
     before, after = 1e3 * deviations[[0, -1]]

@@ -9,7 +9,7 @@ kinematics, it turns this pose into the joints that take the real arm to the des
 """
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.errors import InvalidSetting, UnknownName
+from recalib.errors import InvalidSetting, UnknownName, check_kind
 from recalib.files.archives import MOST, archive_of, opened, refused
 from recalib.files.outputs import AnyPath
 from recalib.files.storage import path_of, read_file, whole
@@ -215,9 +215,12 @@ class Correction:
         if goals.poses.ndim == 3 and frames.targets_unknown and kinds == 1:
             valid = "positions alone: measured positions do not determine a target's rotation"
             raise InvalidSetting("rotations of a target", "given", valid)
+        check_kind("target", target, str, Iterable, type(None))
         if target is None and len(self.targets) > 1:
             raise InvalidSetting("target", None, f"{listed(self.targets, 'or')} for each pose")
-        names = [target or self.targets[0]] if target is None or isinstance(target, str) else target
+        names = (
+            [target or self.targets[0]] if target is None or isinstance(target, str) else [*target]
+        )
         for name in names:
             if name not in self.targets:
                 raise UnknownName("target", str(name), self.targets)

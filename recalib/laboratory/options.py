@@ -16,6 +16,12 @@ Kind = Callable[[str], object]
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no improvement."
 URDF = "URDF file, or the name of an arm of example-robot-data"
 WAYS = "ur, abb, kuka, fanuc, staubli, ros, matrix"
+BOARD, CONE = Path("board/board.toml"), "45 deg"
+BY_POSES = (
+    *("pictures", "targets", "board", "lens", "convention", "target_convention", "height"),
+    *("camera", "unit", "inverse"),
+)  # options
+OF_ARMS = "tool", "base", "description", "recording"
 CALIBRATION = "folder of calibrate, or its correction.npz"
 
 
@@ -72,18 +78,18 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add("measurements", text, _path, nargs="*")
     add_arm(own)
     group = own.add_argument_group("hand-eye calibration, without a URDF: see docs/poses.md")
-    for name, kind, default, text in (
-        ("--poses", _path, None, "table of the flange's poses in the base"),
-        ("--pictures", _path, None, "folder of the board's pictures, one for each pose"),
-        ("--targets", _path, None, "or table of the target's poses in the camera"),
-        ("--board", _path, "board/board.toml", "description of the board (default: %(default)s)"),
-        ("--lens", _path, None, "lens calibration (default: estimated)"),
-        ("--convention", str, None, f"notation of rotations: {WAYS}, or an order: ZYZ, xyz"),
-        ("--target-convention", str, None, "notation of the target's rotations"),
-        ("--height", str, None, "board height, if the arm turns about one axis: '31 cm +- 1 mm'"),
+    for name, kind, text in (
+        ("--poses", _path, "table of the flange's poses in the base"),
+        ("--pictures", _path, "folder of the board's pictures, one for each pose"),
+        ("--targets", _path, "or table of the target's poses in the camera"),
+        ("--board", _path, f"description of the board (default: {BOARD})"),
+        ("--lens", _path, "lens calibration (default: estimated)"),
+        ("--convention", str, f"notation of rotations: {WAYS}, or an order: ZYZ, xyz"),
+        ("--target-convention", str, "notation of the target's rotations"),
+        ("--height", str, "board height, if the arm turns about one axis: '31 cm +- 1 mm'"),
     ):
-        group.add_argument(name, type=kind, default=default, help=text)
-    group.add_argument("--camera", choices=CAMERAS, default=FIXED, help=where)
+        group.add_argument(name, type=kind, help=text)
+    group.add_argument("--camera", choices=CAMERAS, help=where)
     group.add_argument("--unit", choices=LENGTH.units, help="unit of positions, if not in headings")
     text = "this table has the inverse poses: base in flange, or camera in target"
     group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
@@ -128,7 +134,8 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add_argument("--poses", action="store_true", help=text)
     text = "with --poses: ranges of the flange's position: '-40 cm to 40 cm' ..."
     own.add("--box", text, nargs=3, metavar=("X", "Y", "Z"))
-    own.add("--cone", "with --poses: largest angle of view from the board's normal", str, "45 deg")
+    text = f"with --poses: largest angle of view from the board's normal (default: {CONE})"
+    own.add("--cone", text)
 
     own = add("urdf", "write a URDF from Denavit-Hartenberg parameters", "arm.urdf")
     own.add("links", "table (CSV): joint, a, alpha, d, theta, kind", _path)
@@ -142,7 +149,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own = add("observe", "find the board in pictures, and calibrate the lens", "observed")
     own.add("pictures", "folder of pictures", _path)
     own.add("joints", "table (CSV) of joint coordinates, with a column picture", _path)
-    own.add("--board", "description of the board", _path, "board/board.toml")
+    own.add("--board", "description of the board", _path, BOARD)
     own.add("--lens", "lens calibration (YAML; default: estimated)", _path)
     own.add_argument("--camera", choices=CAMERAS, default=FIXED, help=where)
     own.add("--name", "name of the camera, if there are several", str, "camera")

@@ -40,7 +40,7 @@ def propose(
     RecalibError if no candidate can be used.
     """
     if candidates is not None:
-        postures = _useful(correction, candidates)
+        postures = useful(correction, candidates)
     elif len(correction.calibration.frames.sockets):
         raise InvalidSetting("candidates", None, "postures in which the ball sits in a socket")
     else:
@@ -75,8 +75,11 @@ def joint_limits(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
     return lower + margin, upper - margin
 
 
-def _useful(correction: Correction, candidates: np.ndarray | Goals) -> np.ndarray:
-    """Joints (n, columns) of candidates within reach and away from the ends of joint ranges."""
+def useful(correction: Correction, candidates: np.ndarray | Goals) -> np.ndarray:
+    """Joints (n, columns) of candidates within reach and away from the ends of joint ranges.
+
+    Raises RecalibError if there are none.
+    """
     if isinstance(candidates, Goals):
         found, _, reached = reach(correction.calibration, correction.postures, candidates)
     else:

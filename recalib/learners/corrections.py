@@ -10,6 +10,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_runs
 from recalib.learners.observer import Observer, Refitting
 from recalib.loop.interfaces import State
@@ -49,6 +50,7 @@ class PolynomialLearner(Observer):
         self._spread = np.tile(np.diag((np.array(DEVIATIONS)[degrees] / NOISE) ** 2), (runs, 1, 1))
 
     def command(self, desired: np.ndarray) -> np.ndarray:
+        desired = array_of("desired", desired, (len(self._coefficients), "n", 6))
         return desired + monomials(desired, self._degree) @ self._coefficients
 
     def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
@@ -93,6 +95,7 @@ class GaussianProcessLearner(Refitting):
     MODEL = "process"
 
     def command(self, desired: np.ndarray) -> np.ndarray:
+        desired = array_of("desired", desired, (len(self.models), "n", 6))
         return np.stack(
             [
                 poses if process is None else poses + process.predict(poses)

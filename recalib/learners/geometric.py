@@ -11,6 +11,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from recalib.arrays import array_of
 from recalib.errors import check_kind
 from recalib.identification.calibration import Calibration, calibrate, calibrations
 from recalib.identification.model.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS
@@ -46,6 +47,7 @@ class GeometricLearner(Refitting):
         self._controller = controller
 
     def command(self, desired: np.ndarray) -> np.ndarray:
+        desired = array_of("desired", desired, (len(self.models), "n", 6))
         commands = desired.copy()
         known = {run: model for run, model in enumerate(self.models) if model is not None}
         if known:

@@ -86,15 +86,15 @@ class HierarchicalLearner:
         """
         desired = array_of("desired", desired, (self._runs, "n", 6))
         self._settle()
-        return kernels.commands(tuple(self.cells), np.ascontiguousarray(desired))
+        return kernels.commands(tuple(self.cells), desired)
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.
 
         Nothing is learned from a refused move. Raises BadMeasurement if the achieved pose
-        is not a number, far off, or the same for all commands.
+        is not a number, far off, or the same for all commands, and InvalidSetting: another shape.
         """
-        desired = np.ascontiguousarray(desired)
+        desired = array_of("desired", desired, (self._runs, 6))
         if self._waiting == WAITING:
             self._settle()
         cells = tuple(self.cells), self._waiting, self._increments

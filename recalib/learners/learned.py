@@ -12,6 +12,7 @@ import numpy as np
 
 from recalib.errors import InvalidSetting, OtherRobot, check_kind
 from recalib.files.archives import read_archive, refused, write_archive
+from recalib.files.storage import path_of
 from recalib.learners.kinds import class_of, kind_of
 from recalib.loop.interfaces import Savable, State
 from recalib.nominal.robots import Robot
@@ -38,7 +39,7 @@ def save(path: Path, learner: Savable, robot: Robot) -> None:
         "robot": identity(robot),
     }
     states = {str(run): state for run, state in enumerate(learner.state())}
-    write_archive(path, header, states)
+    write_archive(path_of(path), header, states)
 
 
 def load(path: Path, robot: Robot, run: int | None = None) -> Savable:

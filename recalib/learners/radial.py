@@ -60,7 +60,11 @@ class RadialLearner:
         self._field = field
 
     def command(self, desired: np.ndarray) -> np.ndarray:
-        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
+        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6).
+
+        Raises InvalidSetting for another shape, or NaN.
+        """
+        desired = array_of("desired", desired, (len(self.theta), "n", 6))
         # phi is a product of one Gaussian in each net, so its sum over all units factors likewise
         phi_k = self._shares(desired[..., POSITION], self.nets.w_k)
         phi_kl = self._shares(desired[..., ORIENTATION], self.nets.w_kl)
@@ -77,6 +81,7 @@ class RadialLearner:
         A refused move changes nothing. Raises BadMeasurement if the achieved pose is not a number,
         or far off.
         """
+        desired = array_of("desired", desired, (len(self.theta), 6))
         command = self.command(desired[:, None])
         outcome = execute(command)
         check_moves(command, outcome.achieved, outcome.executed)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from recalib.arrays import array_of
 from recalib.errors import BadMeasurement, InvalidSetting, check_kind
 from recalib.loop.interfaces import Outcome
 from recalib.nominal.poses import Workspace
@@ -53,10 +54,11 @@ class ExternalRobot:
         """Measured poses (run, move, 4, 4) and whether each was executed (run, move).
 
         These moves are not counted. The pose of a refused move is the centre of the workspace.
-        Raises BadMeasurement if a measurement is not a pose, or is grossly off.
+        Raises BadMeasurement if a measurement is not a pose, or is grossly off, and InvalidSetting
+        if commands are not finite numbers.
         """
-        poses = self.workspace.to_poses(commands)
-        executed = np.ones(commands.shape[:-1], dtype=bool)
+        poses = self.workspace.to_poses(array_of("commands", commands, ("n", "n", 6)))
+        executed = np.ones(poses.shape[:-2], dtype=bool)
         for index in np.ndindex(executed.shape):
             measured = self._move(poses[index])
             executed[index] = measured is not None

@@ -121,9 +121,11 @@ def train(
     if desired.ndim == 2:
         poses = desired[None], tests[None]
         return train(plant, learner, *poses, measure_at, progress, error).of_run(0)
-    iterations, times = desired.shape[1], sorted({*measure_at})
-    if not times or not 0 <= times[0] <= times[-1] <= iterations:
+    check_kind("measure_at", measure_at, Iterable)
+    iterations, times = desired.shape[1], [*measure_at]
+    if not times or not all(time in range(iterations + 1) for time in times):
         raise InvalidSetting("measure_at", times, f"numbers from 0 to {iterations}, at least one")
+    times = sorted({*times})
     position, orientation, moves, refused = [], [], [], []
     for iteration in range(iterations + 1):
         if iteration in times:

@@ -124,7 +124,8 @@ def _check(arm: Arm, path: Path) -> None:
     limits = model.lowerPositionLimit, model.upperPositionLimit
     for joint, lower, upper in zip(arm.joints, *limits, strict=True):
         if not lower <= upper:
-            raise UnsuitableRobot(f"the limits of {joint} are {lower} to {upper} in {path}")
+            found = f"the limits of {joint} are {lower} to {upper} in {path}"
+            raise UnsuitableRobot(f"{found}; expected: the lower one first")
     tool = model.frames[tool_frame(model, arm.tool)].placement
     for name, placement in zip(
         [*arm.joints, arm.tool], [*model.jointPlacements[1:], tool], strict=True
@@ -133,8 +134,11 @@ def _check(arm: Arm, path: Path) -> None:
             far = f"{FARTHEST:g} m or more from what carries it"
             raise UnsuitableRobot(f"{name} is {far} in {path}; are its lengths in m?")
     for name, inertia in zip(arm.joints, list(model.inertias)[1:], strict=True):
-        if not (0 <= inertia.mass < HEAVIEST and np.abs(inertia.lever).max() < FARTHEST):
+        if not 0 <= inertia.mass < HEAVIEST:
             raise UnsuitableRobot(f"what {name} carries has no mass of an arm's link in {path}")
+        if not np.abs(inertia.lever).max() < FARTHEST:
+            far = f"has its centre {FARTHEST:g} m or more away"
+            raise UnsuitableRobot(f"what {name} carries {far} in {path}; are its lengths in m?")
 
 
 class _Tree:

@@ -10,7 +10,8 @@ from typing import Self
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidSetting
+from recalib.arrays import array_of, numbers
+from recalib.errors import InvalidSetting, check_kind
 from recalib.nominal import kernels
 from recalib.nominal.kinematics import Arm, tool_frame
 
@@ -27,8 +28,12 @@ class Chain(kernels.Arms):
     def of(cls, arm: Arm, offsets: np.ndarray | None = None) -> Self:
         """A single arm; `offsets` (n,) [rad, m] are added to its joint angles.
 
-        The chain is a copy: later changes of the arm do not affect it.
+        The chain is a copy: later changes of the arm do not affect it. Raises InvalidSetting for
+        anything else than an arm, and for offsets of other joints.
         """
+        check_kind("arm", arm, Arm)
+        if offsets is not None:
+            offsets = array_of("offsets", offsets, (len(arm.joints),))
         model, frame = arm.model, arm.model.frames[tool_frame(arm.model, arm.tool)]
         joints, before, placements = [*model.jointPlacements][1:], pin.SE3.Identity(), []
         for joint, placement in enumerate(joints):
@@ -43,7 +48,15 @@ class Chain(kernels.Arms):
 
     @classmethod
     def side_by_side(cls, chains: Sequence[Self]) -> Self:
-        """All arms of several chains, which must have the same number of joints."""
+        """All arms of several chains, which must have the same number of joints.
+
+        Raises InvalidSetting if they have not, or are not chains.
+        """
+        for chain in chains:
+            check_kind("chain", chain, Chain)
+        if len({chain.slides.shape[1] for chain in chains}) != 1:
+            counts = [chain.slides.shape[1] for chain in chains]
+            raise InvalidSetting("chains", f"of {counts} joints", "equal numbers of joints")
         return cls(*map(np.concatenate, zip(*chains, strict=True)))
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
@@ -51,8 +64,7 @@ class Chain(kernels.Arms):
 
         Raises InvalidSetting for another number of arms or joints.
         """
-        self._check(angles, len(self.slides))
-        return kernels.forward(tuple(self), angles)
+        return kernels.forward(tuple(self), self._checked(angles, len(self.slides)))
 
     def solve(self, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Joint angles (posture, n) [rad] that take the tool of the first arm to poses.
@@ -70,18 +82,20 @@ class Chain(kernels.Arms):
 
         Raises InvalidSetting for another number of joints, or another number of initial estimates.
         """
-        self._check(start)
+        start, poses = self._checked(start), numbers("poses", poses)
         if poses.shape != (len(start), 4, 4):
             valid = f"an array ({len(start)}, 4, 4)"
             raise InvalidSetting("poses", f"of shape {poses.shape}", valid)
-        return kernels.solve(tuple(self), poses, start.astype(float))
+        return kernels.solve(tuple(self), poses, start.copy())
 
-    def _check(self, angles: np.ndarray, *arms: int) -> None:
-        """Raise InvalidSetting unless angles are (*arms, posture, n): compiled loops can't."""
+    def _checked(self, angles: np.ndarray, *arms: int) -> np.ndarray:
+        """Angles (*arms, posture, n). Raises InvalidSetting otherwise: compiled loops cannot."""
+        angles = numbers("joint angles", angles)
         expected = *arms, np.atleast_2d(angles).shape[-2], self.slides.shape[1]
         if angles.shape != expected:
             found, valid = f"of shape {angles.shape}", f"an array {expected}"
             raise InvalidSetting("joint angles", found, valid)
+        return angles
 
 
 def _motion(angle: float, slides: bool) -> pin.SE3:

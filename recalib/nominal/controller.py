@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from recalib.arrays import array_of
+from recalib.arrays import array_of, ending
 from recalib.errors import UnfitWorkspace, Unreachable, check_kind
 from recalib.nominal import kernels
 from recalib.nominal.chain import TOLERANCE, Chain
@@ -94,14 +94,21 @@ class Controller:
         return kernels.ControllerArrays(*arguments)
 
     def solve(self, poses: np.ndarray) -> Targets:
-        """Joint targets for the commanded poses (..., 4, 4), also for unreachable ones."""
+        """Joint targets for the commanded poses (..., 4, 4), also for unreachable ones.
+
+        Raises InvalidSetting for another shape.
+        """
         return self.targets(self.robot.workspace.to_coordinates(poses))
 
     def targets(self, commands: np.ndarray) -> Targets:
-        """Joint targets for commands, coordinates (..., 6), also for unreachable ones."""
+        """Joint targets for commands, coordinates (..., 6), also for unreachable ones.
+
+        Raises InvalidSetting for another shape.
+        """
+        commands = ending("commands", commands, 6)
         found = kernels.targets(*self.nominal, commands.reshape(-1, 6))
         axes = commands.shape[:-1]
-        return Targets(*(part.reshape(*axes, *part.shape[1:]) for part in found))
+        return Targets(*(part.reshape((*axes, *part.shape[1:])) for part in found))
 
     def commands_for(
         self, commands: np.ndarray, needed: Callable[[np.ndarray], np.ndarray]
@@ -159,7 +166,7 @@ class Controller:
     def _check_condition(self, knots: np.ndarray, greatest: float) -> None:
         _, jacobians = self.robot.arm.forward_and_jacobian(knots)
         condition = np.linalg.cond(jacobians / self.robot.workspace.half_ranges[:, None]).max()
-        if condition > greatest:
+        if not condition <= greatest:  # also of a NaN
             raise UnfitWorkspace(
                 f"the {self.robot.name} comes too near to a singularity in its workspace: its"
                 f" Jacobian's condition number reaches {condition:.3g}; greatest_condition allows"

@@ -84,6 +84,8 @@ def _check(rows: Sequence[Row]) -> None:
         raise InvalidSetting("rows", f"{len(rows)} joints", f"1 to {MOST}")
     for row in rows:
         check_kind("row", row, Row)
+        check_kind("name of a row", row.name, str)
+        check_kind(f"slides of {row.name}", row.slides, bool, np.bool_)
     names = [row.name for row in rows]
     for row in rows:
         if names.count(row.name) > 1:

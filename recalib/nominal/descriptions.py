@@ -161,12 +161,16 @@ def check_description(robot: Element, path: Path) -> None:
     Names of links and joints must be printable, for messages and tables.
     """
     carried: dict[str, str] = {}
+    named: set[tuple[str, str]] = set()
     for part in (*robot.iterfind("link"), *robot.iterfind("joint")):
         if not (name := part.get("name", "-")).strip() or not name.isprintable():
             raise UnsuitableRobot(
                 f"a {part.tag} in {path} has the name {part.get('name')!r}; expected: letters that"
                 " can be printed"
             )
+        if (part.tag, name) in named and "name" in part.attrib:
+            raise UnsuitableRobot(f"{path} has two {part.tag}s {name}; expected: a name for each")
+        named.add((part.tag, name))
     for joint in robot.iterfind("joint"):
         child, name = joint.find("child"), joint.get("name", "")
         link = "" if child is None else child.get("link", "")

@@ -95,7 +95,12 @@ def orientation_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
 
 def _distances(achieved: np.ndarray, desired: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     achieved, desired = ending("achieved", achieved, 4, 4), ending("desired", desired, 4, 4)
-    achieved, desired = np.broadcast_arrays(achieved, desired)
+    try:
+        achieved, desired = np.broadcast_arrays(achieved, desired)
+    except ValueError:
+        raise InvalidSetting(
+            "desired", f"of shape {desired.shape}", f"as many poses as achieved, {achieved.shape}"
+        ) from None
     lengths, angles = kernels.distances(achieved.reshape(-1, 4, 4), desired.reshape(-1, 4, 4))
     return lengths.reshape(achieved.shape[:-2]), angles.reshape(achieved.shape[:-2])
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidSetting, UnsuitableRobot, check_name
+from recalib.arrays import array_of, numbers
+from recalib.errors import InvalidSetting, UnsuitableRobot, check_kind, check_name
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm, tool_frame
@@ -108,6 +109,7 @@ def load_robot(
     size, or with ambiguous coordinates of orientations).
     """
     path, limits = find_urdf(urdf), limits or {}
+    array_of("beyond", beyond, ())
     arm = load_arm(path, tool)
     end = _end(arm).translation
     end += beyond * _outward(arm)
@@ -121,13 +123,17 @@ def load_robot(
             " at least six, for a workspace in which poses have six coordinates"
         )
     for key, given in (("home", home), ("limits", limits)):
+        check_kind(key, given, Mapping)
         for joint in given:
             check_name(f"joint in {key}", joint, joints)
     if missing := [joint for joint in joints if joint not in home]:
         raise InvalidSetting("home", dict(home), f"an angle for {', '.join(missing)} too")
     lower, upper = arm.model.lowerPositionLimit.copy(), arm.model.upperPositionLimit.copy()
     for joint, bounds in limits.items():
-        lower[joints.index(joint)], upper[joints.index(joint)] = bounds
+        pair, index = numbers(f"limits.{joint}", bounds), joints.index(joint)
+        if pair.shape != (2,) or not pair[0] <= pair[1]:
+            raise InvalidSetting(f"limits.{joint}", bounds, "the lowest and the highest")
+        lower[index], upper[index] = pair
     angles = np.array([home[joint] for joint in joints], dtype=float)
     for joint, slides, low, angle, high in zip(
         joints, arm.slides, lower, angles, upper, strict=True
@@ -139,7 +145,7 @@ def load_robot(
         ("position_range", position_range),
         ("orientation_range", orientation_range),
     ):
-        if len(sides) != 3 or not all(0 < side < math.inf for side in sides):
+        if not (array_of(key, sides, (3,)) > 0).all():
             raise InvalidSetting(key, [*sides], "three sides above zero")
     workspace = Workspace(
         centre=arm.forward(angles[None])[0],

@@ -5,6 +5,7 @@ from xml.etree import ElementTree
 
 import pinocchio as pin
 
+from recalib.errors import check_kind
 from recalib.files.storage import read_file
 from recalib.nominal.descriptions import MOST, caught_messages, find_urdf, parsed
 from recalib.nominal.kinematics import Arm
@@ -18,8 +19,10 @@ def load_shapes(arm: Arm, urdf: str | PathLike[str]) -> tuple[pin.GeometryModel,
         arm: an arm from this URDF.
         urdf: see `find_urdf`.
 
-    Returns the shapes, and the names of mesh files or links whose shapes cannot be read.
+    Returns the shapes, and the names of mesh files or links whose shapes cannot be read. Raises
+    InvalidSetting for anything else than an arm.
     """
+    check_kind("arm", arm, Arm)
     path = find_urdf(urdf)
     source, missing = with_own_meshes(read_file(path, MOST), path, "collision", "visual")
     shapes = pin.GeometryModel()

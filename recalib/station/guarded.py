@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from recalib.files.quantities import ANGLE
 from recalib.nominal.kinematics import Arm
 from recalib.station.interface import Station, StationFailed
 
@@ -62,14 +63,18 @@ class Guarded:
         low, high = self._numbers("lower limits", lower), self._numbers("upper limits", upper)
         if (wrong := low >= high).any():
             joint = self._arm.joints[int(wrong.argmax())]
-            raise StationFailed(f"the station's lower limit of {joint} is not below its upper one")
+            found = f"the station's limits of {joint} are {low[wrong][0]:g} to {high[wrong][0]:g}"
+            raise StationFailed(f"{found}; expected: the lower one first")
         return low, high
 
     def angles(self) -> np.ndarray:
         """The current joint angles (joints,) [rad, m]."""
-        return self._numbers(
-            "angles", self._ask("report its angles", lambda station: station.angles())
-        )
+        given = self._ask("report its angles", lambda station: station.angles())
+        angles = self._numbers("angles", given)
+        if (most := np.abs(angles[~self._arm.slides]).max(initial=0)) > ANGLE.farthest:
+            valid = f"up to {ANGLE.write(ANGLE.farthest)}. Are they in rad?"
+            raise StationFailed(f"the station's angles are up to {most:.3g} rad; expected: {valid}")
+        return angles
 
     def move(self, goal: np.ndarray, speed: float) -> None:
         """Move to joint angles (joints,) [rad, m], and wait until the arm stands still there."""

@@ -6,6 +6,7 @@ from typing import Protocol
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from recalib.arrays import array_of, check_rotations
 from recalib.errors import RecalibError
 
 
@@ -52,7 +53,12 @@ class Station(Protocol):
 
 
 def cells_of(pose: np.ndarray) -> dict[str, float | str]:
-    """A measured pose (4, 4) [m] as `Station.measure` returns it."""
+    """A measured pose (4, 4) [m] as `Station.measure` returns it.
+
+    Raises InvalidSetting: another shape, or no rotation.
+    """
+    pose = array_of("pose", pose, (4, 4))
+    check_rotations("pose", pose)
     numbers = [*pose[:3, 3], *Rotation.from_matrix(pose[:3, :3]).as_quat()]
     names = "x [m]", "y [m]", "z [m]", "qx", "qy", "qz", "qw"
     return dict(zip(names, map(float, numbers), strict=True))

@@ -19,6 +19,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from recalib.errors import InvalidSetting
 from recalib.station.interface import Station, StationFailed
 
 _CLASS = re.compile(r"(?P<home>[^\s:]+):(?P<name>\w+)")
@@ -82,12 +83,16 @@ class ProgramStation:
     input ends. Its stderr is passed on.
 
     Args:
-        command: the program and its arguments.
+        command: the program and its arguments, such as ["node", "station.js"].
 
-    Raises StationFailed: the program does not start, or does not describe itself.
+    Raises StationFailed: the program does not start, or does not describe itself; InvalidSetting:
+    no such command.
     """
 
     def __init__(self, command: Sequence[str]):
+        words = [] if isinstance(command, str) or not isinstance(command, Sequence) else command
+        if not words or not all(isinstance(word, str) and "\0" not in word for word in words):
+            raise InvalidSetting("command", command, 'words such as ["node", "station.js"]')
         self._name = command[0]
         try:
             self._process = subprocess.Popen(

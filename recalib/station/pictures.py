@@ -10,8 +10,8 @@ from recalib.errors import InvalidFile
 from recalib.identification.model.optics import Optics
 from recalib.station.interface import Station, StationFailed, cells_of
 from recalib.vision import views
-from recalib.vision.boards import Board
-from recalib.vision.detection import FEWEST, Corners, Unusable, find_corners, read_picture
+from recalib.vision.boards import FEWEST, Board
+from recalib.vision.detection import Corners, Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
 
 PICTURE = "picture"

@@ -14,7 +14,7 @@ import yaml
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import LENGTH
 from recalib.files.storage import read_file, read_toml
-from recalib.spelling import listed
+from recalib.spelling import counted, listed
 
 CHARUCO, APRILTAG, APRILGRID = "charuco", "apriltag", "aprilgrid"
 CHESSBOARD, CIRCLES = "chessboard", "circles"
@@ -28,6 +28,7 @@ DICTIONARY = "4X4_100"  # of our printed boards
 BORDER = 1  # black modules around the bits of a marker; Kalibr's markers have 2
 WHITE = 2  # white modules in a square, or between tags
 MOST = 100_000  # bytes in a file
+FEWEST = 8  # corners
 SMALLEST, LARGEST = 1e-3, 1.0  # m: limits on the side of a square
 
 
@@ -65,6 +66,9 @@ class Board:
             raise InvalidSetting("square", f"{1e3 * self.square:g} mm", valid)
         if self.kind not in PLAIN:
             self._check_markers()
+        if (corners := len(self.points)) < FEWEST:
+            found = f"{self.columns} x {self.rows}, with {counted(corners, 'corner')}"
+            raise InvalidSetting("columns x rows", found, f"at least {FEWEST} corners")
 
     def _check_markers(self) -> None:
         if not 0 < self.marker < self.square:

@@ -11,9 +11,9 @@ import numpy as np
 from PIL import Image
 
 from recalib.errors import RecalibError
-from recalib.vision.boards import APRILGRID, CHARUCO, CHESSBOARD, PLAIN, Board
+from recalib.vision.boards import APRILGRID, CHARUCO, CHESSBOARD, FEWEST, PLAIN, Board
 
-FEWEST, FEWEST_MARKERS = 8, 4  # the least numbers of corners and of markers
+FEWEST_MARKERS = 4
 MISPLACED = 0.3  # of a marker's side: larger deviations from a plane mean another board
 OTHERS = "4X4_250", "5X5_250", "6X6_250", "APRILTAG_36H11"
 DRAWN = 64  # px, the side of a square in a drawing

@@ -6,6 +6,8 @@ import os
 import re
 import sys
 from dataclasses import replace
+from pathlib import Path
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 import pandas as pd
@@ -15,6 +17,7 @@ from recalib import OFFSETS as TERMS
 from recalib import load_arm, load_correction
 from recalib.identification.model import ErrorModel
 from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
+from recalib.laboratory.report.page import figure_of, svg_of
 from tests.conftest import run
 from tests.laboratory.conftest import (
     ARM,
@@ -174,6 +177,25 @@ def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, 
     )
     message += r" predicted positions from 0\.0\d+ mm to 0\.0\d+ mm[.:]"
     assert re.match(message, capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("beyond", [1, 5])
+def test_candidates_that_are_left_out_are_counted(beyond, calibrated, folder, capsys):
+    swing = [1e-3 * row for row in range(4)] + [114.0] * beyond  # deg, at the end of the range
+    cells = {f"{joint} [deg]": [0.0] * len(swing) for joint in ("lift", "elbow")}
+    write(folder / "candidates.csv", {"swing [deg]": swing} | cells)
+    out = f"--out={folder / 'chosen.csv'}"
+    assert main(["next", str(calibrated), str(folder / "candidates.csv"), out]) == DONE
+    assert f"warning: {beyond} of {4 + beyond} candidates left out: out" in capsys.readouterr().err
+    Path(folder, "chosen.csv").unlink()
+
+
+def test_letters_that_a_drawing_lacks_are_no_reason_for_a_warning():
+    with catch_warnings():
+        simplefilter("error")
+        figure, panels = figure_of(2.0, 1, 1)
+        panels[0, 0].set_xlabel("关节")
+        assert "关节" in svg_of(figure)
 
 
 def test_an_arm_without_errors_is_left_alone(arm, folder):

@@ -4,8 +4,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import Description, InvalidFile, read_description
-from recalib.laboratory.tables.measurements import read_desired, read_measurements
+from recalib import Description, InvalidFile, InvalidSetting, read_description
+from recalib.files.quantities import LENGTH
+from recalib.laboratory.tables.description import within
+from recalib.laboratory.tables.measurements import (
+    joint_headings,
+    read_desired,
+    read_joints,
+    read_measurements,
+)
 from tests.arms import urdf
 from tests.laboratory.conftest import write as write_columns
 
@@ -66,6 +73,39 @@ def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
         columns = joints() | positions() | dict(zip(names, cells, strict=True))
         read = read_measurements(write(columns), gantry)
         assert np.allclose(read.measured[:, :3, :3], turn.as_matrix())
+
+
+@pytest.mark.parametrize(
+    ("of_urdf", "heading"),
+    [
+        ("e\u0301lan", "\u00e9lan"),
+        ("\u00e9lan", "e\u0301lan"),
+        (" rail ", "rail"),
+        ("rail", "rail "),
+    ],
+)
+def test_names_that_look_alike_are_alike(of_urdf, heading, load, write):
+    """With an accent of its own or not, and with blanks at the ends."""
+    arm = load(GANTRY.replace('"rail"', f'"{of_urdf}"'))
+    for first in (f"{heading} [mm]", joint_headings(arm)[0]):
+        length, turn = joints().values()
+        read = read_joints(write({first: length, "wrist [deg]": turn}), arm)
+        assert np.allclose(read.joints[-1], [1.5, np.pi / 2])
+
+
+def test_a_column_of_a_joint_that_follows_another_is_named(load, write):
+    arm = load(GANTRY.replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0 1"/><mimic joint="rail"/>'))
+    with pytest.raises(InvalidFile, match="'wrist' is that of a joint that follows another by"):
+        read_joints(write(joints()), arm)
+
+
+@pytest.mark.parametrize("between", ["+-", " +- ", "+/-", " +/- ", "±", " ± "])
+def test_a_deviation_is_written_in_three_ways(between):
+    assert within("here", f"3 mm{between}1 mm", LENGTH) == (0.003, 0.001)
+    with pytest.raises(
+        InvalidSetting, match="the deviation of here is '0 mm'; expected: more than"
+    ):
+        within("here", f"3 mm{between}0 mm", LENGTH)
 
 
 def test_targets_and_sockets_are_named_also_in_what_is_desired(gantry, write):

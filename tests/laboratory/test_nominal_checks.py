@@ -1,4 +1,5 @@
 import re
+from functools import partial
 
 import numpy as np
 import pinocchio as pin
@@ -155,6 +156,15 @@ def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(ur10, joints):
     assert likely_mistake(ur10, joints, poses, most_steps=1) is None
 
 
+FLIP = np.diag([1.0, -1.0, 1.0, 1.0])
+LABELS = load_arm("ur10_robot.urdf", "tool0").joints
+
+
+def mirrored(axis, turns):
+    mirror = np.diag(1 - 2.0 * (np.arange(3) == axis))
+    return Rotation.from_matrix(mirror @ turns.as_matrix() @ mirror)
+
+
 REREAD = {  # by the mistake, a change of rotations r
     "rotations of another frame or in another": lambda r: r[::-1],
     "rotations of the instrument in the target's frame": lambda r: r.inv(),
@@ -169,10 +179,26 @@ REREAD = {  # by the mistake, a change of rotations r
         np.radians(r.as_rotvec())
     ),
     "roll, pitch and yaw in reverse order": lambda r: euler("xyz", r.as_euler("xyz")[:, ::-1]),
+    **{
+        f"rotations of a left-handed frame, or of one half turned about {name}": partial(
+            mirrored, axis
+        )
+        for axis, name in enumerate("xyz")
+    },
 }
 POSES = {  # by the mistake, a change of joints and poses
     "poses of the instrument in the target's frame": lambda q, p: (q, np.linalg.inv(p)),
     "positions with a reversed axis": lambda q, p: (q, p * MIRROR),
+    "positions with a reversed axis, or two exch": lambda q, p: (q, FLIP @ p @ FLIP),
+    **{
+        f"columns {LABELS[first]} to {LABELS[last]} that hold radians labelled deg": (
+            lambda q, p, some=slice(first, last + 1): (
+                np.hstack([q[:, : some.start], np.radians(q[:, some]), q[:, some.stop :]]),
+                p,
+            )
+        )
+        for first, last in ((3, 5), (0, 2), (1, 4))
+    },
     **{
         mistake: lambda q, p, change=change: (q, reread(p, change))
         for mistake, change in REREAD.items()

@@ -55,7 +55,7 @@ def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
     kind, makers, controller, damaged
 ):
     """Also next to a run whose moves are refused; a learner of today moves once."""
-    plant, sent = Plant(controller, damaged), []
+    plant, own, sent = Plant(controller, damaged), Plant(controller, damaged), []
     together, alone = makers[kind](runs=2), makers[kind](runs=1)
 
     def refuse_the_first(commands):
@@ -65,7 +65,7 @@ def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
 
     for move in range(3):
         together.learn(DESIRED[:, move], refuse_the_first, move / 40)
-        alone.learn(DESIRED[1:, move], plant.execute, move / 40)
+        alone.learn(DESIRED[1:, move], own.execute, move / 40)
     assert sent == [(RUNS, 1, 6)] * 3 * (1 + (kind == "hierarchical"))
     commands = together.command(TESTS)
     assert commands[0] == pytest.approx(TESTS[0], abs=1e-14)

@@ -263,8 +263,14 @@ STOPPED = {  # by the message, what a station does
     "is invalid: it has more than one column 'elbow_joint'": {
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },
-    "lower limit of shoulder_pan_joint is not below its upper one": {
-        "limits": np.outer([2, -2], np.ones(6))
+    **{
+        f"limits of shoulder_pan_joint are {ends}; expected: the lower one first": {
+            "limits": np.outer(limits, np.ones(6))
+        }
+        for ends, limits in {"2 to -2": [2, -2], "1 to 1": [1, 1]}.items()
+    },
+    r"the station's angles are up to 132 rad; expected: up to 720 deg. Are they in rad\?": {
+        "angles": lambda station, angles: np.degrees(angles)
     },
     "asked to report its angles, the station raised OSError: no route": {
         "angles": lambda station, angles: (
@@ -315,6 +321,14 @@ def test_joints_in_another_order_are_the_same_joints(tmp_path):
 
 
 @pytest.mark.usefixtures("all_postures")
+@pytest.mark.parametrize("answer", [True, None, "move"])
+def test_an_answer_of_another_kind_is_no_end(answer, tmp_path):
+    station = Simulated()
+    with pytest.raises(InvalidSetting, match="the answer to a move is .* an instance of Answer"):
+        run(station, tmp_path, lambda move: answer)
+    assert not moved(station) and station.calls.count("stop") == 1
+
+
 def test_the_way_home_is_asked_for_and_may_be_refused(tmp_path):
     box = Box(np.array([0.5, -0.7, 0.2]), np.array([1.0, 0.8, 0.4]))
     station, home, goals = Simulated(), Simulated().stands, []

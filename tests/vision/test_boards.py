@@ -50,6 +50,10 @@ def test_a_board_is_printed_at_true_size(board):
     ("line", "message"),
     [
         ("columns = 7|columns = 1", "columns is 1; expected: a whole number from 2 to 50"),
+        (
+            "columns = 7|columns = 2",
+            "columns x rows is '2 x 5, with 4 corners'; expected: at least 8",
+        ),
         ('square = "36 mm"|square = 36', "square is 36; expected: a length in mm, cm, m"),
         ('"charuco"|"chess"', "kind is 'chess'; expected: charuco, apriltag, aprilgrid"),
         ("rows = 5|rows = 51", "rows is 51; expected: a whole number from 2 to 50"),
@@ -186,7 +190,7 @@ def test_a_lens_that_is_none_is_refused(text, change, message, tmp_path):
         read_lens(tmp_path / "lens.yaml")
 
 
-@pytest.mark.parametrize("size", [(7, 5, 0.036), (3, 2, 0.09)], ids=["A4", "A3"])
+@pytest.mark.parametrize("size", [(7, 5, 0.036), (5, 3, 0.06)], ids=["A4", "A3"])
 def test_the_bar_below_a_board_is_100_mm_long(size):
     board = printable(*size)
     (png,), (wide, high), _ = draw_board(board, "png")

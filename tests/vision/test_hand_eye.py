@@ -327,6 +327,7 @@ def tenfold(poses: np.ndarray) -> np.ndarray:
     return scaled(10.0)(poses)
 
 
+FLIP = np.diag([1.0, -1.0, 1.0, 1.0])
 INVERSE = "the flange's poses are those of the base in the flange"
 MOVING = "angles about the moving axes z, y, x"
 FAULTS = {
@@ -346,6 +347,10 @@ FAULTS = {
     "other axes": Fault(MOVING, options=("--convention", "XYZ"), way="kuka"),
     "fixed axes": Fault(f"{MOVING} (--convention)", options=("--convention", "fanuc"), way="kuka"),
     "the other side": Fault("--camera ", otherwise=True),
+    "left-handed": Fault(
+        "the poses of one table are of a left-handed frame",
+        change=lambda poses: FLIP @ poses @ FLIP,
+    ),
     "larger": Fault("larger than described", change=scaled(1.04)),
     "smaller": Fault("smaller than described", change=scaled(0.97)),
     "millimetres as metres": Fault("Is its unit right?", change=scaled(1e3)),
@@ -436,6 +441,22 @@ def test_four_axes_need_a_height(in_hand, tables, tmp_path, capsys):
     place = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())["camera"]
     length = 1e-3 * float(place["deviation"][0].split()[0])
     assert off(np.array(place["matrix"]), cell.camera)[0] < 4 * length
+
+
+@pytest.mark.parametrize("lean", [0, 5, 20])
+@pytest.mark.parametrize("exact", [False, True])
+@pytest.mark.parametrize("seed", range(2))
+def test_an_axis_that_leans_takes_no_place_away(seed, exact, lean, tables, tmp_path):
+    """Nor does a flange that turns about it to the last digit."""
+    tables(cell := HandEyeCell(seed, True, four_axes=True))
+    base, flange = turned(np.radians([[lean, 0.0, 0.0]]))[0], cell.flange(POSES)
+    poses = base @ (flange if exact else cell.reported(flange))
+    (tmp_path / "poses.txt").write_text(written(poses))
+    (tmp_path / "targets.txt").write_text(written(cell.board_poses(flange)))
+    height = f"{1e3 * (base @ cell.target)[2, 3]:.4f} mm"
+    assert calibrate("--height", height, camera="hand") == DONE
+    place = tomllib.loads((tmp_path / "out/hand_eye.toml").read_text())["camera"]
+    assert off(np.array(place["matrix"]), cell.camera)[0] < 0.02
 
 
 def test_a_height_that_contradicts_the_poses_is_named(tables, capsys):

@@ -59,7 +59,9 @@ def moved_ends(found: HandEye) -> tuple[list[Fault], HandEye]:
 def _whitened(found: HandEye) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Weighted residuals (n, 6), and their slopes by parameters and by the flange, over noise."""
     linear = LinearHandEye(found)
-    roots = np.linalg.cholesky(linear.precisions).swapaxes(1, 2)
+    # of exact poses, rounding leaves no precision positive definite; covariances are
+    covariances = linear.covariances(found.accuracy, found.noise)
+    roots = np.linalg.inv(np.linalg.cholesky(covariances))
     roots = roots * np.sqrt(found.weights)[:, None, None]
     residuals = np.einsum("nij,nj->ni", roots, linear.residuals)
     by_flange = roots @ linear.by_flange * np.repeat(found.accuracy, 3)

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from recalib.files.quantities import LENGTH
 from recalib.identification.hand_eye import ONE_AXIS, starts
 from recalib.identification.model.hand_eye_model import HandEye, Sights
 from recalib.laboratory.hand_eye.pose_table import PoseTable, other_readings
@@ -31,6 +32,7 @@ OPEN_SIZE = 0.1  # component of such a direction along the scale: then the scale
 SIZE, SURE = 0.015, 5.0  # smallest error of a scale to report: relative, and in deviations
 HELD, LONGER = 0.3, 2.0  # m; ratio of distances: an object on a flange is seldom farther away
 BEHIND = -0.5  # z in the camera over the distance: the board is behind the camera
+MIRROR = np.diag([1.0, 1.0, -1.0, 1.0])
 TILT = "try: poses that are tilted by 20 deg or more, about two axes"
 
 
@@ -73,6 +75,9 @@ def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> N
     if not fits:
         _check_height(found.sights, remaining)
         _check_readings(found.sights, flange, targets, remaining)
+    for name, place in (("camera", found.camera), ("board", found.board)):
+        if (far := np.linalg.norm(place[:3, 3])) > LENGTH.farthest:
+            raise Mistaken(f"the {name} would be {far:.0f} m away, so the poses do not fit; {TILT}")
     for part, name in enumerate(("camera", "board")):
         position, turn = found.deviations(part)
         if position > OPEN[0] or turn > OPEN[1]:
@@ -198,6 +203,7 @@ def exchange_in(found: HandEye, by_table: bool) -> str | None:
 def _readings(name: str, option: str, table: PoseTable) -> Iterator[tuple[str, np.ndarray]]:
     """Poses as read, without words, and with the rotations read in other ways, in words."""
     yield "", table.poses
+    yield "the poses of one table are of a left-handed frame", MIRROR @ table.poses @ MIRROR
     for words, turns in other_readings(table.turns):
         poses = replace(table, rotations=turns).poses
         yield f"the {name}'s rotations are {words} ({option})", poses

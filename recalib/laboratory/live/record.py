@@ -6,14 +6,13 @@ import io
 import os
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.outputs import AnyPath
-from recalib.files.storage import read_file, whole
+from recalib.files.storage import path_of, read_file, whole
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.data_set import data_set
 from recalib.laboratory.tables.columns import PICTURE, PICTURES
@@ -48,7 +47,7 @@ class Record:
         description: Description,
         pictures: "BoardInPictures | None" = None,
     ):
-        self.path, self._arm, self._description = Path(path), arm, description
+        self.path, self._arm, self._description = path_of(path), arm, description
         self.pictures = pictures
         self.observations: Observations | None = None  # the rows; None while there are none
         self.dropped = ""  # the incomplete last row, if there was one

@@ -3,12 +3,19 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnsuitableRobot
+from recalib.errors import (
+    InvalidFile,
+    InvalidSetting,
+    RecalibError,
+    UnsuitableRobot,
+    check_kind,
+)
 from recalib.files.outputs import AnyPath
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.model.observations import Observations
@@ -27,6 +34,8 @@ if TYPE_CHECKING:  # it needs OpenCV
 USELESS = 0.05  # of the predicted error: a smaller reduction is not worth ten moves
 SOON = 20  # rows before this is judged: errors beyond geometry do not show in fewer
 NARROWEST = 2 * REACHED  # rad: nearer postures count as one
+KINDS = {"error": Real, "floor": Real, "most": Integral, "span": Real, "speed": Real}  # of settings
+OPTIONAL = "error", "floor"
 TRIES = 3  # attempts to measure in a posture
 LOST = 10  # successive postures without sight of the target: it is lost, or they are too far
 
@@ -57,6 +66,13 @@ class LiveSettings:
     self_collision: bool = True
 
     def __post_init__(self) -> None:
+        check_kind("box", self.box, Box, type(None))
+        for name, kind in KINDS.items():
+            given = getattr(self, name)
+            if not isinstance(given, kind) and (given is not None or name not in OPTIONAL):
+                raise InvalidSetting(name, given, "a number")
+        if self.floor is not None and not np.isfinite(self.floor):
+            raise InvalidSetting("floor", self.floor, "a height in m, or None")
         if self.error is not None and not 0 < self.error < np.inf:
             raise InvalidSetting("error", f"{1e3 * self.error:g} mm", "more than zero")
         if self.most < FEWEST:
@@ -123,8 +139,13 @@ def calibrate_live(
         pictures: reads the pictures in the column `picture`, if rows are measured by a camera.
         shapes: of the links, see `load_shapes`; without them, only the tool must clear the floor.
 
-    Raises RecalibError: UnsuitableRobot, StationFailed, Interrupted, or rows that do not fit.
+    Raises RecalibError: UnsuitableRobot, StationFailed, Interrupted, InvalidSetting (something else
+    than an arm, settings or an answer), or rows that do not fit.
     """
+    check_kind("arm", arm, Arm)
+    check_kind("settings", settings, LiveSettings)
+    if not callable(opening):
+        raise InvalidSetting("opening", type(opening).__name__, "a function that makes a station")
     if len(arm.coupling.columns) < len(arm.joints):
         followers = f"some of {', '.join(arm.joints)} follow other joints by <mimic>"
         raise UnsuitableRobot(
@@ -232,6 +253,7 @@ class _Session:
             self.postures.check(start, posture)
             tool = self.postures.tool
             answer = ask(Move(start, posture, tool(start), tool(posture)))
+            check_kind("the answer to a move", answer, Answer)
             if answer is not Answer.MOVE:
                 return answer
             # a person may have moved the arm while the question was open

@@ -25,8 +25,8 @@ from recalib.laboratory.pictures.observed import (
 )
 from recalib.laboratory.tables.columns import PICTURE
 from recalib.laboratory.tables.table import Table, read_table
+from recalib.vision.boards import FEWEST as FEWEST_CORNERS
 from recalib.vision.boards import Board, read_board
-from recalib.vision.detection import FEWEST as FEWEST_CORNERS
 from recalib.vision.detection import Unusable, find_corners, read_picture
 from recalib.vision.lens_search import FEWEST, FoundLens, find_lens
 from recalib.vision.lenses import Lens, read_lens

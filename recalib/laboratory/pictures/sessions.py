@@ -28,8 +28,8 @@ from recalib.laboratory.tables.measurements import Measurements, read_joints
 from recalib.laboratory.tables.table import read_table
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted
-from recalib.vision.boards import Board, board_in
-from recalib.vision.detection import FEWEST, Corners, are_on_a_line
+from recalib.vision.boards import FEWEST, Board, board_in
+from recalib.vision.detection import Corners, are_on_a_line
 from recalib.vision.lens_search import FEWEST as FEWEST_VIEWS
 from recalib.vision.lens_search import find_lens, moved_lens
 from recalib.vision.lenses import Lens, read_lens

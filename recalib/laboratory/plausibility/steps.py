@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from itertools import combinations
+from itertools import combinations, combinations_with_replacement
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ from recalib.nominal.kinematics import Arm
 
 SHIFTED = "joints of the row"
 TURNS = {"degrees labelled rad": np.pi / 180, "radians labelled deg": 180 / np.pi}
+PARTS = {"half of its turn": 2.0, "twice its turn": 0.5}
 UNITS = {  # wrong units of positions, by the factor that corrects the positions
     1e-3: "in millimetres labelled m",
     1e-2: "in centimetres labelled m",
@@ -71,14 +72,17 @@ def steps_of(arm: Arm) -> Iterator[Step]:
 
 
 def rare_steps_of(arm: Arm) -> Iterator[Step]:
-    """Mistakes in a single column, or in the signs of all joints: each is tried by itself."""
+    """Mistakes in some columns of many, or in all joints: each is tried by itself."""
     yield Step("the signs of all joints", np.negative)
-    turns = TURNS | {"half of its turn": 2.0, "twice its turn": 0.5}
-    each = np.eye(len(arm.joints))
-    for joint in np.flatnonzero(~arm.slides):
-        for words, factor in turns.items():
-            scale = partial(np.multiply, 1 + (factor - 1) * each[joint])
-            yield Step(f"a column {arm.joints[joint]} that holds {words}", scale)
+    count, turning = np.arange(len(arm.joints)), ~arm.slides
+    for first, last in combinations_with_replacement(np.flatnonzero(turning), 2):
+        alone, one, other = first == last, arm.joints[first], arm.joints[last]
+        some = turning & (first <= count) & (count <= last)
+        if not alone and (some == turning).all():  # all of them are a frequent mistake
+            continue
+        holding = f"a column {one} that holds" if alone else f"columns {one} to {other} that hold"
+        for words, factor in (TURNS | (PARTS if alone else {})).items():
+            yield Step(f"{holding} {words}", partial(np.multiply, np.where(some, factor, 1.0)))
     for axis, name in enumerate("xyz"):
         for factor in (1e-3, 1e3):
             scale = partial(_scaled, 1 + (factor - 1) * np.eye(3)[axis])
@@ -103,6 +107,12 @@ def steps_of_rotations() -> Iterator[Step]:
             lambda turns: Rotation.from_rotvec(np.degrees(turns.as_rotvec()))
         ),
         "roll, pitch and yaw in reverse order": lambda turns: euler("xyz", _angles(turns)[:, ::-1]),
+        **{
+            f"rotations of a left-handed frame, or of one half turned about {name}": (
+                partial(_mirrored, axis)
+            )
+            for axis, name in enumerate("xyz")
+        },
     }
     for words, change in changes.items():
         yield Step(words, measured=partial(_turned, change))
@@ -119,6 +129,12 @@ def _scaled(factor: float | np.ndarray, measured: np.ndarray) -> np.ndarray:
     places = scaled if measured.ndim == 2 else scaled[:, :3, 3]
     places *= factor
     return scaled
+
+
+def _mirrored(axis: int, rotations: Rotation) -> Rotation:
+    """Rotations (n,) as a frame has them whose axis points the other way, or both others do."""
+    mirror = np.diag(1.0 - 2 * (np.arange(3) == axis))
+    return Rotation.from_matrix(mirror @ rotations.as_matrix() @ mirror)
 
 
 def _turned(change: Callable[[Rotation], Rotation], poses: np.ndarray) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from io import StringIO
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from matplotlib import rc_context
@@ -127,7 +128,9 @@ def _plain(axis: Axis) -> None:
 def svg_of(figure: Figure) -> str:
     """The SVG element of a figure, for an HTML page."""
     text, metadata = StringIO(), dict.fromkeys(("Creator", "Date", "Format", "Type"))
-    figure.savefig(text, format="svg", metadata=metadata)
+    with catch_warnings():  # a browser has the letters that Matplotlib's font lacks
+        simplefilter("ignore", UserWarning)
+        figure.savefig(text, format="svg", metadata=metadata)
     return text.getvalue()[text.getvalue().index("<svg") :]
 
 

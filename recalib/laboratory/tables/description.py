@@ -1,5 +1,6 @@
 """The description of a table (TOML): columns, frames and distances; see docs/own_arm.md."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -15,6 +16,7 @@ from recalib.identification.model.frames import LINK, Frames
 from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance", "wear"
+PLUS_MINUS = re.compile(r"\s*(?:\+/?-|±)\s*")
 EXACT = 1e-6  # m, rad: deviation of a number without one, if other numbers of the pose have one
 
 
@@ -96,9 +98,11 @@ def _pose(part: str, parts: Mapping[str, Any]) -> dict[str, Any]:
 
 def within(key: str, given: Any, kind: Quantity, default: float = 0.0) -> tuple[float, float]:
     """Read a value and its deviation, as in "3 mm +- 1 mm". Raises InvalidSetting."""
-    value, *deviation = given.split("+-", 1) if isinstance(given, str) else [given]
+    value, *deviation = PLUS_MINUS.split(given, 1) if isinstance(given, str) else [given]
     number = _read(key, value, kind)
-    return number, _read(key, deviation[0], kind, positive=True) if deviation else default
+    if not deviation:
+        return number, default
+    return number, _read(f"the deviation of {key}", deviation[0], kind, positive=True)
 
 
 def _wear(given: Any) -> dict[str, Any]:

@@ -29,7 +29,7 @@ from recalib.laboratory.tables.columns import (
     Columns,
 )
 from recalib.laboratory.tables.description import Description
-from recalib.laboratory.tables.table import Table, read_table, table_of, table_text
+from recalib.laboratory.tables.table import Table, named, read_table, table_of, table_text
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted, listed
 
@@ -130,7 +130,8 @@ def measurements_so_far(
 def joint_headings(arm: Arm, angle: str = "deg", length: str = "mm") -> list[str]:
     """The headings of an arm's joints, with units, in tables that we write."""
     taken = {heading for kind in MEASURED for heading in kind.headings}
-    names = (PREFIX + joint if joint in taken else joint for joint in arm.coupling.columns)
+    joints = map(named, arm.coupling.columns)
+    names = (PREFIX + joint if joint in taken else joint for joint in joints)
     units = (length if slides else angle for slides in arm.coupling.slides)
     return [f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)]
 
@@ -212,7 +213,14 @@ def check_copies(table: Table) -> None:
 def _read(
     table: Table, arm: Arm, layout: Sequence[Columns], joints_needed: bool = True
 ) -> Measurements:
-    columns = arm.coupling.columns
+    columns = [named(joint) for joint in arm.coupling.columns]
+    for joint in map(named, arm.joints):
+        if joint in table and joint not in columns:
+            raise InvalidFile(
+                table.path,
+                f"column {joint!r} is that of a joint that follows another by <mimic>; expected:"
+                f" {listed(columns, 'and')}; try: without it, or a URDF without <mimic>",
+            )
     names = [PREFIX + joint if PREFIX + joint in table else joint for joint in columns]
     others = [kind for kind in layout if not {*names} & {*kind.headings}]
     for kind in (kind for kind in layout if kind not in others):

@@ -4,6 +4,7 @@ import csv
 import io
 import math
 import re
+import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -166,7 +167,8 @@ def table_of(
     for row, line in enumerate(rows[1:], 1):
         if len(line) != len(found):
             cells = counted(len(line), "cell")
-            reason = f"row {row} has {cells}; expected: {len(found)}, as in the header"
+            header = f"as in the header, which begins with {found[0]!r}"
+            reason = f"row {row} has {cells}; expected: {len(found)}, {header}"
             raise InvalidFile(path, reason)
     units: dict[str, str] = {}
     cells_of: dict[str, list[str]] = {}
@@ -181,7 +183,7 @@ def table_of(
         if not parts or not parts["name"]:
             valid = "expected: a name, and its unit in square brackets, as in 'x [mm]'"
             raise InvalidFile(path, f"heading {meant!r} cannot be used; {valid}")
-        name = parts["name"]
+        name = named(parts["name"])
         if name in cells_of:
             raise InvalidFile(path, f"it has more than one column {name!r}")
         units[name], cells_of[name] = parts["unit"] or "", [row[index].strip() for row in rows[1:]]
@@ -189,6 +191,11 @@ def table_of(
     if not cells_of:
         raise InvalidFile(path, "its description ignores every column")
     return Table(path, units, cells_of, headings)
+
+
+def named(name: str) -> str:
+    """A name as headings have it: without blanks at its ends, a letter with its accent as one."""
+    return unicodedata.normalize("NFC", name.strip())
 
 
 def table_text(rows: Iterable[Mapping[str, object]]) -> bytes:

@@ -2,6 +2,8 @@
 
 import re
 
+import numpy as np
+
 from recalib.errors import InvalidFile
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH
@@ -17,6 +19,8 @@ MOUNT = f"{TOOL}_mount"  # the joint between the last link and the tool
 KINDS = "revolute", "prismatic"
 NO_XML = re.compile(r"[^ -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 PARAMETERS = {"a": LENGTH, "alpha": ANGLE, "d": LENGTH, "theta": ANGLE}
+RIGHT, ROUNDED = np.pi * np.array([0.5, 1.0]), 2e-3  # a right angle or two in rad, as people write
+MOST_RAD = 7.0  # of an angle: a larger number is of degrees
 LAYOUT = (
     Columns("joint", ("joint",), TEXT, needed=True),
     *(Columns(name, (name,), quantity, needed=True) for name, quantity in PARAMETERS.items()),
@@ -34,6 +38,11 @@ def read_rows(path: AnyPath) -> list[Row]:
     """
     table = read_table(path)
     columns = table.read(LAYOUT)
+    turns = np.degrees([columns["alpha"], columns["theta"]])
+    gaps = np.abs(np.abs(turns)[..., None] - RIGHT).min(axis=-1)
+    if np.abs(turns).max() < MOST_RAD and gaps.min() < ROUNDED:
+        found = f"its angles, such as {turns.flat[gaps.argmin()]:.4g} deg, are right angles in rad"
+        raise InvalidFile(path, f"{found}; expected: alpha [rad] and theta [rad], or degrees")
     names = columns["joint"].tolist()
     if len(table) > MOST:
         raise InvalidFile(path, f"it has {len(table)} joints; expected: at most {MOST}")
