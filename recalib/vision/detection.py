@@ -168,7 +168,7 @@ def _mistake(board: Board, picture: np.ndarray) -> str | None:
     for name in OTHERS:
         if board.dictionary.startswith(name[:4]):
             continue
-        other = replace(board, dictionary=name, first_id=0, columns=2, rows=2)
+        other = replace(board, dictionary=name, first_id=0, columns=4, rows=4)
         if len(_markers(other, picture)[1]) > MANY:
             return f"its markers are of {name}, not of {board.dictionary}: this is another board"
     if (softness := _softness(picture)) > SOFT:
