@@ -41,6 +41,7 @@ OPTIONS = ["-x", "-q", "-n0", "--tb=line", "-p", "no:cacheprovider"]
 OPTIONS += ["-W", "ignore::pytest.PytestAssertRewriteWarning"]  # of what is imported already
 OPTIONS += ["-m", "not slow", *(f"--deselect={test}" for test in TOO_LONG)]
 PATIENCE = 60  # seconds of processor time beyond what the tests take; an endless loop is noticed
+NONE = 5  # pytest's exit code if a file has only slow tests
 KILLED, SURVIVED, STILLBORN = "killed", "survived", "stillborn"
 Keep = Callable[[Mapping[str, Reach]], None]
 
@@ -77,7 +78,7 @@ def judge(
         os._exit(2)
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     # 2: pytest could not import it, for instance since an annotation makes no sense
-    return {0: SURVIVED, 2: STILLBORN}.get(code, KILLED)
+    return {0: SURVIVED, 2: STILLBORN, NONE: SURVIVED}.get(code, KILLED)
 
 
 def _run_tests(folder: Path, tests: list[str], log: Path, keep: Keep | None) -> None:
@@ -97,7 +98,7 @@ def _run_tests(folder: Path, tests: list[str], log: Path, keep: Keep | None) -> 
             os.dup2(stream.fileno(), number)
         watch = Watch() if keep else None
         code = pytest.main([*OPTIONS, *tests], plugins=[watch] if watch else [])
-        if watch and not code:
+        if watch and code in (0, NONE):
             keep(watch.reached())
         sys.stdout.flush()
     os._exit(int(code))

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from replication.campaign import DOUBLE
 from replication.config import Study, root_of
 from replication.judgement import Evidence, summarise, written
 from replication.judgement.claims import judge
@@ -57,7 +58,7 @@ def project(tmp_path_factory) -> Callable[[Study, int], Path]:
             table = outcomes(changed(study, campaign={"setups": setups}))
             campaign = folder / "workflow" / "campaign"
             write(campaign / "outcomes.csv", table)
-            last = table.query("setup > 0 and variant == @DOUBLE and iterations == 20_000")
+            last = table[table["variant"] == DOUBLE].query("setup > 0 and iterations == 20_000")
             shares = [f"{kind}_share" for kind in KINDS]
             halfway = last.assign(iterations=10_000, **(2 * last[shares]))
             write(campaign / "halfway.csv", halfway)
