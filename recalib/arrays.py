@@ -17,27 +17,34 @@ def array_of(name: str, given: ArrayLike, *shapes: Shape) -> np.ndarray:
 
     Raises InvalidSetting, with the value found and the values expected.
     """
-    texts = (f"({', '.join(map(str, shape))}{',' * (len(shape) == 1)})" for shape in shapes)
-    valid = f"an array of finite numbers of shape {' or '.join(texts)}"
+    array = _numbers_in(given)
     if np.ma.is_masked(given):
-        raise InvalidSetting(name, "a masked array", valid)
-    array = numbers(name, given, valid)
-    if not any(_fits(array, shape) for shape in shapes):
-        raise InvalidSetting(name, f"of shape {array.shape}", valid)
-    if not np.isfinite(array).all():
-        raise InvalidSetting(name, "an array with NaN or infinity", valid)
-    return array.copy()
+        found = "a masked array"
+    elif array is None:
+        found = type(given).__name__
+    elif not any(_fits(array, shape) for shape in shapes):
+        found = f"of shape {array.shape}"
+    elif not np.isfinite(array).all():
+        found = "an array with NaN or infinity"
+    else:
+        return array.copy()
+    texts = (f"({', '.join(map(str, shape))}{',' * (len(shape) == 1)})" for shape in shapes)
+    raise InvalidSetting(name, found, f"an array of finite numbers of shape {' or '.join(texts)}")
 
 
-def numbers(name: str, given: ArrayLike, valid: str = "an array of numbers") -> np.ndarray:
+def numbers(name: str, given: ArrayLike) -> np.ndarray:
     """The given numbers as an array of any shape. Raises InvalidSetting if they are not numbers."""
+    if (array := _numbers_in(given)) is None:
+        raise InvalidSetting(name, type(given).__name__, "an array of numbers")
+    return array
+
+
+def _numbers_in(given: ArrayLike) -> np.ndarray | None:
     try:
         array = np.asarray(given)
     except ValueError:  # rows of different lengths
-        array = np.array(None)
-    if array.dtype.kind not in "iuf":
-        raise InvalidSetting(name, type(given).__name__, valid)
-    return array.astype(float, copy=False)
+        return None
+    return array.astype(float, copy=False) if array.dtype.kind in "iuf" else None
 
 
 def ending(name: str, given: ArrayLike, *last: int) -> np.ndarray:
