@@ -234,7 +234,7 @@ def test_snakemakes_notes_are_deleted_and_a_setting_is_changed(yard):
     project = yard.complete()
     shutil.rmtree(project.folder / ".snakemake")
     options = "--config", "training={tests: 11}"
-    project.run(*options).expect_refusal(f"remove {RESULTS}, or, if nothing was changed since,")
+    project.run(*options).expect_refusal(f"remove {RESULTS} or, if nothing has changed since,")
     (project.results / ".running").unlink()
     expect_next_run_finishes(yard, project)
 
