@@ -219,7 +219,7 @@ STOPPED = {  # by the message, what a station does
     "0.02 s after the arm should have stopped, the tool still moves by .* mm; expected: at most": {
         "angles": lambda station, angles: station.shift(1e-3) if moved(station) == 3 else angles
     },
-    "during a measurement, the tool moved by .* mm; expected: at most 0.1 mm": {
+    r"during a measurement, the tool moved by 0\.[1-9]\d* mm; expected: at most 0.1 mm": {
         "measured": lambda station, cells: cells if station.shift(3e-4).any() else None
     },
     "asked to measure, the station raised KeyError: 'temperature'": {
