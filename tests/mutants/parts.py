@@ -63,7 +63,6 @@ PARTS = {
 TOO_LONG = (  # tests that take minutes: no mutant meets them
     "tests/replication/training/test_poses.py::"
     "test_no_test_pose_of_any_job_was_learned_from_or_searched_with",
-    "tests/replication/campaign/test_planted.py::test_what_was_planted_is_found",
 )
 # Not judged: replication/plots, since figures are inspected by eye and their numbers come from
 # judgement; the rest of replication and recalib, which reads and writes files and finds names, so

@@ -109,6 +109,7 @@ WORLDS = {
     "Ritter's map needs long": ("long", [IMPROVED, DOUBLE], learning, np.log(90) * OFTEN, YES),
     "Ritter's map is nearly as fast": ("long", [IMPROVED, DOUBLE], learning, 1.5 * OFTEN, NO),
 }
+FAST = "positions spare the supernet", "increments of theta help", "Ritter's map needs long"
 
 
 class Table:
@@ -121,8 +122,10 @@ class Table:
         return self._table
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("world", WORLDS)
+@pytest.mark.parametrize(
+    "world",
+    [pytest.param(world, marks=() if world in FAST else pytest.mark.slow) for world in WORLDS],
+)
 def test_what_was_planted_is_found(study, world, monkeypatch):
     monkeypatch.setattr("replication.judgement.claims.claim.FEWEST", SETUPS)  # of a real campaign
     name, names, surface, effects, verdict = WORLDS[world]
