@@ -11,7 +11,7 @@ from cosmic_ray.work_item import WorkItem, WorkResult
 from scipy.stats import binomtest
 
 HERE = Path(__file__).parent
-PAGE = HERE.parents[1] / "docs" / "mutants.md"
+PAGE, UNEXPLAINED = HERE.parents[1] / "docs" / "mutants.md", HERE / "unexplained.diff"
 
 
 def difference(before: str, after: str) -> str:
@@ -46,12 +46,14 @@ def write_page(sessions: Mapping[str, Path]) -> None:
         survivors += sorted(survived, key=lambda survivor: (survivor["module"], survivor["line"]))
     whole = {key: sum(row[key] for row in rows) for key in row}
     template = jinja2.Template((HERE / "page.md.j2").read_text(encoding="utf-8"))
-    page = template.render(
-        rows=rows,
-        whole=whole | {"interval": _interval(whole)},
-        survivors=survivors,
-    )
+    page = template.render(rows=rows, whole=whole | {"interval": _interval(whole)})
     PAGE.write_text(page + "\n", encoding="utf-8")
+    changes = (
+        "# {module}, line {line}\n- {was}\n+ {now}\n".format(**survivor)
+        for survivor in survivors
+        if not survivor["reason"]
+    )
+    UNEXPLAINED.write_text("".join(changes), encoding="utf-8")
 
 
 def _interval(row: Mapping) -> str:
