@@ -20,7 +20,7 @@ Arrays = Mapping[str, Any]  # arrays, or further groups, by name
 
 @contextmanager
 def refused(path: str | PathLike[str], writer: str) -> Iterator[None]:
-    """Raise InvalidFile instead of any foreign exception, since a file may contain anything."""
+    """Raise InvalidFile instead of any other exception, since a file may contain anything."""
     try:
         yield
     except RecalibError:

@@ -146,3 +146,11 @@ def test_impossible_widths_and_rates_are_refused(widths, rate):
 def improved(runs=1):
     widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
     return HierarchicalLearner(IMPROVED, Schedule(4.0, widths, 0.8, 0.4), runs=runs)
+
+
+@pytest.mark.parametrize(
+    ("centres", "along"), [("boxes", [-2 / 3, 0, 2 / 3]), ("faces", [-1, 0, 1])]
+)
+def test_cells_are_a_regular_grid_of_the_workspace(centres, along):
+    grid = regular_grid((3, 1), centres)
+    assert grid == pytest.approx(np.array([along, [0, 0, 0]]).T)

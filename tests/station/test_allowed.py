@@ -11,9 +11,10 @@ import pytest
 
 from recalib import Answer, InvalidSetting, StationFailed, load_arm, load_shapes
 from recalib.laboratory.live.allowed import AllowedPostures, Box
-from recalib.laboratory.live.clearance import MARGIN, Clearance
+from recalib.laboratory.live.clearance import FLOOR, MARGIN, TOOL, Clearance
 from recalib.laboratory.live.command import ask_to_move
 from recalib.laboratory.live.session import Move
+from recalib.station.guarded import REACHED
 from tests.station.conftest import MOST
 from tests.station.simulated import HOMES, URDFS, Simulated
 
@@ -51,6 +52,27 @@ def test_links_and_tool_stay_above_the_floor_also_on_the_way(name):
     assert min(lowest(arm, shapes, joints) for joints in ways) > MARGIN - 1e-3
     *_, anywhere = allowed(name, floor=None)
     assert min(lowest(arm, shapes, joints) for joints in anywhere.joints[:100]) < 0
+
+
+def test_all_links_beyond_the_second_and_the_tool_keep_off_the_floor():
+    arm, home = load_arm(*URDFS["UR5"]), np.array(HOMES["UR5"], dtype=float)
+    shapes, _ = load_shapes(arm, URDFS["UR5"][0])
+    pairs = Clearance(arm, home, shapes, 0.0, False, 0.0).pairs
+    beyond = {shape.name for shape in shapes.geometryObjects if shape.parentJoint > 2}
+    assert {link for link, other in pairs if other == FLOOR} == beyond | {TOOL}
+
+
+def test_an_arm_does_not_pass_a_narrow_obstacle_between_two_checks():
+    """One joint turns by 29 deg; the middle 3 deg of the way are outside the box."""
+    station = Simulated()
+    x, y, _ = station.arm.forward(station.stands[None])[0, :3, 3]
+    forward = station.stands - np.arctan2(y, x) * np.eye(6)[0]
+    start, goal = (forward + turn * np.eye(6)[0] for turn in (-0.25, 0.25))
+    farthest = np.hypot(x, y) * np.cos(0.03) - REACHED  # with which the station may miss a posture
+    box = Box(np.full(3, -2.0), np.array([farthest, 2.0, 2.0]))
+    postures = AllowedPostures(station.arm, start, station.limits, SPAN, box)
+    with pytest.raises(StationFailed, match="the arm would pass with its tool at .* --box"):
+        postures.check(start, goal)
 
 
 def test_a_board_on_the_tool_stays_above_the_floor_however_it_is_turned():

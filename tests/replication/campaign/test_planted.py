@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from replication.campaign import DOUBLE, TWO_MAPS
+from replication.campaign.measuring import of_one
 from replication.config import IMPROVED, read_study
 from replication.judgement import Verdict
 from replication.judgement.claims import claims
@@ -133,3 +134,9 @@ def test_what_was_planted_is_found(study, world, monkeypatch):
     claim = next(claim for claim in claims(study) if claim.id == name)
     table = campaign(study, names, surface, effects + 0.03 * random.normal(size=SETUPS), 1)
     assert claim.comparison.verdict(claim.values(Table(table)).model()) is verdict
+
+
+def test_an_error_that_is_bought_with_the_other_one_counts_for_more():
+    shares = np.array([[0.1, 0.1], [0.1, 0.2], [0.1, 0.4]])
+    score = of_one("position", {"position_share": 0.3, "orientation_share": 0.2})
+    assert score(shares) == pytest.approx([0.1, 0.1, 0.1 * 2**8])

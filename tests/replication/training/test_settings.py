@@ -177,3 +177,6 @@ def test_a_share_is_of_the_arms_own_error_and_a_learner_that_diverges_is_worst(s
     shares = trials.shares(np.array([good, nothing]))
     assert (shares[0] < 0.5).all() and (shares[1] > 0.5).all()
     assert trials.uncorrected.shape == (2, 2) and (trials.uncorrected > 0.005).all()
+    first = trials.first(1).poses
+    assert np.array_equal(first.desired, poses.desired[:1])
+    assert np.array_equal(first.tests, poses.tests[:1])
