@@ -24,11 +24,15 @@ MOVING = (
     *(f"recalib/laboratory/{name}" for name in ("live", "correction.py", "reaching.py")),
 )
 EXPERIMENTS = "tests/replication/training", "tests/test_experiment.py"
+# what the jobs compute of small studies
+KEPT = "tests/replication/test_kept.py", "tests/replication/campaign/test_measuring.py"
 PARTS = {
-    "experiments": Part(("replication/training", "recalib/loop/training.py"), EXPERIMENTS),
+    "experiments": Part(
+        ("replication/training", "recalib/loop/training.py"), (*EXPERIMENTS, *KEPT)
+    ),
     "campaign": Part(("replication/campaign",), ("tests/replication/campaign", EXPERIMENTS[0])),
-    "scenarios": Part(("replication/scenarios",), ("tests/replication/scenarios",)),
-    "mapping": Part(("replication/mapping",), ("tests/replication/mapping",)),
+    "scenarios": Part(("replication/scenarios",), ("tests/replication/scenarios", *KEPT)),
+    "mapping": Part(("replication/mapping",), ("tests/replication/mapping", *KEPT)),
     "judgement": Part(
         ("replication/judgement",),
         ("tests/replication/judgement", "tests/replication/campaign/test_table_to_verdict.py"),
@@ -46,7 +50,7 @@ PARTS = {
         ("recalib/laboratory",), ("tests/laboratory", "tests/vision", "tests/station"), MOVING
     ),
     "vision": Part(("recalib/vision",), ("tests/vision",)),
-    "recording": Part(("replication/recording",), ("tests/replication/recording",)),
+    "recording": Part(("replication/recording",), ("tests/replication/recording", *KEPT[:1])),
     "nominal": Part(
         ("recalib/nominal",),
         (
