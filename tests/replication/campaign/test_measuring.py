@@ -6,11 +6,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from replication.campaign import DOUBLE, TWO_MAPS, Replicate
+from replication.campaign import DOUBLE, TWO_MAPS, Replicate, lengths
 from replication.campaign.drawing import draw
 from replication.campaign.factors import rows
 from replication.campaign.measuring import measure_variant
 from replication.campaign.setups import read_design
+from replication.campaign.ship import ship
+from replication.campaign.untrained import untrained
 from replication.campaign.variants import variants
 from replication.config import IMPROVED, read_study
 from replication.training import ERRORS, Stream
@@ -44,6 +46,36 @@ def test_published_setups_are_drawn_again():
         if row.number in setups
     }
     assert drawn == setups
+
+
+def test_published_measurements_without_a_learner_are_made_again(tmp_path):
+    few = tmp_path / "design.csv"
+    pd.read_csv(DESIGN, dtype=str)[1::9].to_csv(few, index=False)
+    published = pd.read_csv(DESIGN.with_name("untrained.csv"))[1::9].reset_index(drop=True)
+    pd.testing.assert_frame_equal(untrained(STUDY, few), published, rtol=1e-3)
+
+
+def test_the_table_has_the_rows_of_the_plan():
+    """Ritter's larger map goes on until it reaches the improved system's errors."""
+    for (setup, name), table in PUBLISHED.groupby(["setup", "variant"]):
+        planned = lengths(variants(STUDY)[name], setup)
+        measured = table.groupby("replicate")["iterations"].agg(tuple)
+        assert set(measured) <= {planned, planned + STUDY.campaign.rungs}
+    assert not PUBLISHED.duplicated(["setup", "replicate", "variant", "iterations"]).any()
+
+
+def test_a_replicate_that_is_measured_again_takes_the_place_of_its_rows(tmp_path):
+    table, again = tmp_path / "outcomes.csv", tmp_path / "new" / "3" / "0.csv"
+    again.parent.mkdir(parents=True)
+    new = PUBLISHED.query("setup == 3 and variant == 'ritter'").assign(trials=1)
+    new.to_csv(again, index=False)
+    PUBLISHED.to_csv(table, index=False)
+    ship(tmp_path / "new", table)
+    shipped = pd.read_csv(table)
+    mine = shipped["setup"] == 3
+    pd.testing.assert_frame_equal(shipped[mine].reset_index(drop=True), new.reset_index(drop=True))
+    others = PUBLISHED[PUBLISHED["setup"] != 3].reset_index(drop=True)
+    pd.testing.assert_frame_equal(shipped[~mine].reset_index(drop=True), others)
 
 
 @pytest.mark.parametrize("name", [name for name, its in variants(STUDY).items() if its.lengths])
