@@ -16,7 +16,7 @@ from replication.campaign.homes import random_home
 from replication.campaign.setups import Setup, robot_in
 from replication.config.study import Study
 from replication.scenarios.assignments import Ways, assign, compare
-from replication.scenarios.plants import Nominal, nominal_of, nominal_robot
+from replication.scenarios.plants import Nominal, nominal_controller, nominal_of
 
 
 def design(study: Study) -> list[dict[str, Any]]:
@@ -41,8 +41,11 @@ def draw(study: Study, number: int, row: Row) -> Setup:
     random = generator(plan.seed, "setup", row.number)
     seed = int(random.integers(2**32))
     nominal = robot_in(nominal_of(study, levels["robot"]), levels, study)
-    controller, refused = _controller(nominal, levels["home"], plan.home_spread, random)
-    robot, joints = controller.robot, list(nominal.robot.home)
+    if levels["home"] == "random":
+        controller, refused = random_home(nominal, plan.home_spread, random)
+    else:
+        controller, refused = nominal_controller(nominal), 0
+    robot = controller.robot
     tests = robot.workspace.sample(random, damage.poses)
     if row.number == 0:  # the reference study's own assignment, from its own poses
         entries = assign(nominal, damage, study.seed)[1]
@@ -61,23 +64,14 @@ def draw(study: Study, number: int, row: Row) -> Setup:
         seed=seed,
         levels={name: str(level) for name, level in levels.items()},
         home_deg=tuple(
-            float(f"{np.degrees(robot.home[robot.joints.index(joint)]):.6g}") for joint in joints
+            float(f"{np.degrees(robot.home[robot.joints.index(joint)]):.6g}")
+            for joint in nominal.robot.home
         ),
         homes_refused=refused,
         damage=entries,
         position_error_cm=float(f"{position:.4g}"),
         orientation_error_deg=float(f"{orientation:.4g}"),
     )
-
-
-def _controller(
-    nominal: Nominal, home: str, spread: float, random: np.random.Generator
-) -> tuple[Controller, int]:
-    """The controller at the setup's home, and the number of homes that it refused before."""
-    robot, greatest = nominal_robot(nominal), nominal.controller.greatest_condition
-    if home == "configured":
-        return Controller(robot, greatest), 0
-    return random_home(robot, spread, greatest, random)
 
 
 def ways_in(nominal: Nominal, levels: Mapping[str, Any], study: Study) -> Ways:

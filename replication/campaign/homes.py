@@ -9,23 +9,24 @@ from recalib.errors import UnfitWorkspace
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
+from replication.scenarios.plants import Nominal, nominal_robot
 
 CORNERS = np.array(list(product((-1.0, 1.0), repeat=6)))
 CANDIDATES = 30000  # the most restrictive arm, with a longer tool, accepts one home in 10,000
 
 
 def random_home(
-    robot: Robot, spread: float, greatest_condition: float, random: np.random.Generator
+    nominal: Nominal, spread: float, random: np.random.Generator
 ) -> tuple[Controller, int]:
     """The controller at the first random home that it accepts, and the number of refused homes.
 
     Args:
         spread: rad, greatest distance of each joint from the robot's home, within its limits.
-        greatest_condition: see `Controller`.
         random: the generator that draws homes, in whole degrees.
 
     Raises UnfitWorkspace.
     """
+    robot = nominal_robot(nominal)
     low = np.ceil(np.degrees(np.maximum(robot.home - spread, robot.lower)))
     high = np.floor(np.degrees(np.minimum(robot.home + spread, robot.upper)))
     chain = Chain.of(robot.arm)
@@ -35,7 +36,7 @@ def random_home(
         candidate = replace(robot, home=home, workspace=workspace)
         if _reaches_corners(candidate, chain):
             try:
-                return Controller(candidate, greatest_condition), refused
+                return Controller(candidate, nominal.controller.greatest_condition), refused
             except UnfitWorkspace:
                 pass
     raise UnfitWorkspace(f"the {robot.name}'s controller refuses all of {CANDIDATES} random homes")

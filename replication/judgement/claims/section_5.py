@@ -1,6 +1,7 @@
 """Section 5: what to propagate to neighbouring cells."""
 
 from collections.abc import Callable
+from functools import partial
 
 import pandas as pd
 
@@ -63,10 +64,7 @@ def nearer(kind: str) -> Callable[[Statement, Evidence], Finding]:
 
 def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
-
-    def remaining(variant: str) -> Remaining:
-        return Remaining(variant, iterations)
-
+    remaining = partial(Remaining, iterations=iterations)
     both = Contrast(remaining(IMPROVED), remaining("improved_values"))
     criterion = (
         "In at least 95 % of the balls in which the condition holds, the new update is better, over"

@@ -1,5 +1,7 @@
 """Section 6: how widths should fall."""
 
+from functools import partial
+
 import numpy as np
 
 from replication.config.switches import IMPROVED, RITTER
@@ -61,10 +63,7 @@ def expected_learning(statement: Statement, evidence: Evidence) -> Finding:
 
 def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
-
-    def remaining(variant: str) -> Remaining:
-        return Remaining(variant, iterations)
-
+    remaining = partial(Remaining, iterations=iterations)
     name = "error with equal visits / with exponential widths"
     return [
         Measured(
