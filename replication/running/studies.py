@@ -98,17 +98,15 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
         case str(name) if name in valid:
             other = valid.pop(name)
         case str(name):
-            raise _refused(like, unknown((LIKE,), name, valid))
+            mistake = unknown((LIKE,), name, valid)
+            raise InvalidConfiguration([f"{shown(like.place)}: {mistake}"])
         case value:
-            raise _refused(like, unlike((LIKE,), value, f"one of {listed(valid, 'and')}"))
+            mistake = unlike((LIKE,), value, f"one of {listed(valid, 'and')}")
+            raise InvalidConfiguration([f"{shown(like.place)}: {mistake}"])
     defaults = {"name": Path(str(layer.place[0])).stem, "expected": None}
     content = {key: value for key, value in layer.content.items() if key != LIKE}
     content = from_mapping(defaults, layer.place[:1]).content | content
     return [*layers_of(other, [*valid.values()]), Placed(content, layer.place)]
-
-
-def _refused(value: Placed, mistake: Mistake) -> InvalidConfiguration:
-    return InvalidConfiguration([f"{shown(value.place)}: {mistake}"])
 
 
 def _typed(value: Any) -> Any:

@@ -19,11 +19,11 @@ class Statement:
     """A statement in the paper, and the criterion that would support it."""
 
     id: str  # its name
-    section: str  # the section of the paper
     words: str  # a quotation from the paper
     claim: str  # the claim in one sentence
     criterion: str  # the condition that supports the claim
     reason: str  # why this criterion was chosen
+    section: str = ""  # of the paper, if it is not only that of the file
     published: str | None = None  # the paper's number, if any
 
     def finding(

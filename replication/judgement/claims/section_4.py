@@ -103,7 +103,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
     found: list[OfSetups | Measured] = [
         Measured(
             "weak-coupling",
-            "4",
             "changes in position coordinates influence very slowly the orientation commands, and"
             " the same can be said about orientation coordinates with respect to position commands",
             "Positions hardly influence orientation commands, nor the reverse.",
@@ -114,7 +113,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "weak-coupling-reason",
-            "4",
             "Due to the characteristics of the workspace used (far from singularities and of small"
             " size relative to that of the robot)",
             "This decoupling arises because the workspace is small and far from singularities.",
@@ -126,7 +124,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "large-neighbourhoods",
-            "4",
             "too large neighborhoods in the position coordinates space are counterproductive to"
             " learn position commands",
             "Too wide neighbourhoods of positions hurt position commands.",
@@ -142,7 +139,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "no-good-solution",
-            "4",
             "there is no good solution to these contradictory interests within Ritter et al.'s"
             " framework",
             "One map cannot serve positions and orientations at once.",
@@ -160,7 +156,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "separate-maps",
-            "4",
             "This modification leads to a significant increase in learning speed.",
             "Two maps, one for positions and one for orientations, learn faster than one.",
             f"After {late:,} iterations, Ritter's two maps leave a smaller error than his one map"
@@ -185,7 +180,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         found.append(
             OfSetups(
                 f"widths-{error}",
-                "4",
                 words,
                 f"The {error} map needs {widths}.",
                 f"After {late:,} iterations, the {error} error of two maps is smaller if the"
@@ -204,7 +198,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         found.append(
             OfSetups(
                 f"cells-{error}",
-                "4",
                 words,
                 f"The {error} map needs fewer cells in the {net}.",
                 f"After {late:,} iterations, the {error} error of two maps with 2 x 2 x 2 cells in"
