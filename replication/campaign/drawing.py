@@ -1,22 +1,52 @@
 """Draw the setups of the design: levels of all factors, and a feasible home for each robot."""
 
 import sys
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.stats.qmc import LatinHypercube
 
 from recalib.damaged.damage import Damage, apply
 from recalib.errors import RecalibError
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import pose_errors
 from recalib.numerics.randomness import generator
-from replication.campaign.factors import Row, rows
 from replication.campaign.homes import random_home
 from replication.campaign.setups import Setup, robot_in
+from replication.config.campaign import Campaign, Factors
 from replication.config.study import Study
 from replication.scenarios.assignments import Ways, assign, compare
 from replication.scenarios.plants import Nominal, nominal_controller, nominal_of
+
+BATCHES = 3  # of rows; the second and third replace rows that a robot refuses
+
+
+class Row(NamedTuple):
+    """A row of the design."""
+
+    number: int  # 0 is the reference study, with the first level of each factor
+    levels: dict[str, Any]  # the level of each factor
+    share: float  # in [0, 1), selects one of all assignments of the damage, if the level is "any"
+
+
+def rows(plan: Campaign) -> Iterator[Row]:
+    """The rows of the design, followed by replacements for rows that a robot refuses.
+
+    The first row is the reference study. The rest is a Latin hypercube: the levels of each factor
+    occur equally often, and factors are almost uncorrelated.
+    """
+    factors = {name: getattr(plan.factors, name) for name in Factors.model_fields}
+    yield Row(0, {name: levels[0] for name, levels in factors.items()}, 0.0)
+    number = 0
+    for batch in range(BATCHES):
+        random = np.random.default_rng([plan.seed, batch])
+        sampler = LatinHypercube(len(factors) + 1, optimization="random-cd", rng=random)
+        for *numbers, share in sampler.random(plan.setups - 1).tolist():
+            number += 1
+            pairs = zip(factors.items(), numbers, strict=True)
+            drawn = {name: levels[int(u * len(levels))] for (name, levels), u in pairs}
+            yield Row(number, drawn, share)
 
 
 def design(study: Study) -> list[dict[str, Any]]:

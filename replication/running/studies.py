@@ -38,17 +38,6 @@ def digests(study: Study) -> dict[str, str]:
     return {key: digest(json.dumps(part, sort_keys=True).encode()) for key, part in parts.items()}
 
 
-def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
-    """Raise RecalibError if a study with the shipped study's name does not match the lock."""
-    now = digests(study)
-    if changed := [key for key in now if now[key] != lock.get(key)]:
-        raise RecalibError(
-            f"not the shipped study: it differs in {', '.join(changed)}, and only the shipped study"
-            f" may write README, docs and figures; try: add `name: my_study` to the changes, for"
-            f" results in {root_of('my_study')}, or `make ship` to ship this study instead"
-        )
-
-
 def study_of(
     project: Path,
     files: Sequence[Path] = (),
@@ -78,8 +67,13 @@ def study_of(
     if asking:
         checks.append(check_robots)
     study = read_study(base, *own, checks=checks)
-    if study.name == SHIPPED:
-        check_shipped(study, lock)
+    changed = [key for key, now in digests(study).items() if now != lock.get(key)]
+    if study.name == SHIPPED and changed:
+        raise RecalibError(
+            f"not the shipped study: it differs in {', '.join(changed)}, and only the shipped study"
+            f" may write README, docs and figures; try: add `name: my_study` to the changes, for"
+            f" results in {root_of('my_study')}, or `make ship` to ship this study instead"
+        )
     return study
 
 

@@ -72,8 +72,8 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
     def remaining(variant: str, error: Error = "both") -> Remaining:
         return Remaining(variant, late, error)
 
-    def for_(error: Error, variant: str) -> Remaining:
-        return remaining(variant.format(error), error)
+    def small(net: str, error: Error) -> Remaining:
+        return remaining(f"small_{net.removesuffix('s')}_for_{error}", error)
 
     orders = {
         "position": (
@@ -88,14 +88,10 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
     cells = {
         "position": (
             "the position network needs less units in the supernet",
-            "small_supernet_for_{}",
-            "small_subnet_for_{}",
             ("supernet", "subnets"),
         ),
         "orientation": (
             "the orientation network saves neurons at the subnet level",
-            "small_subnet_for_{}",
-            "small_supernet_for_{}",
             ("subnets", "supernet"),
         ),
     }
@@ -189,24 +185,25 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
                 name=f"{error} error in the paper's order / in reverse",
                 system=TWO,
                 estimand=Contrast(
-                    for_(error, "two_maps_for_{}_paper"), for_(error, "two_maps_for_{}_reverse")
+                    remaining(f"two_maps_for_{error}_paper", error),
+                    remaining(f"two_maps_for_{error}_reverse", error),
                 ),
             )
         )
     for error in errors:
-        words, fewer, other, (net, other_net) = cells[error]
+        words, (net, other) = cells[error]
         found.append(
             OfSetups(
                 f"cells-{error}",
                 words,
                 f"The {error} map needs fewer cells in the {net}.",
                 f"After {late:,} iterations, the {error} error of two maps with 2 x 2 x 2 cells in"
-                f" the {net} is below that with 2 x 2 x 2 cells in the {other_net}.",
+                f" the {net} is below that with 2 x 2 x 2 cells in the {other}.",
                 "A map that needs fewer cells in a net loses less if it has fewer. Above 1, the"
                 " sentence holds with supernet and subnets exchanged.",
-                name=f"{error} error with fewer cells in the {net} / in the {other_net}",
+                name=f"{error} error with fewer cells in the {net} / in the {other}",
                 system=TWO,
-                estimand=Contrast(for_(error, fewer), for_(error, other)),
+                estimand=Contrast(small(net, error), small(other, error)),
             )
         )
     return found

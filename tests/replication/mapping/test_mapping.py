@@ -18,9 +18,9 @@ from replication.mapping import (
     propagation_errors,
     true_commands,
 )
-from replication.mapping.coupling import coupling
 from replication.mapping.quantisation import quantisation
 from replication.mapping.solutions import solutions
+from replication.mapping.true_mapping import coupling
 from replication.mapping.visits import visits
 
 
