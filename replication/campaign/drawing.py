@@ -2,23 +2,28 @@
 
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.stats.qmc import LatinHypercube
 
 from recalib.damaged.damage import Damage, apply
-from recalib.errors import RecalibError
+from recalib.errors import RecalibError, UnfitWorkspace
+from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import pose_errors
+from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
-from replication.campaign.homes import random_home
 from replication.campaign.setups import Setup, robot_in
 from replication.config.campaign import Campaign, Factors
 from replication.config.study import Study
 from replication.scenarios.assignments import Ways, assign, compare
-from replication.scenarios.plants import Nominal, nominal_controller, nominal_of
+from replication.scenarios.plants import Nominal, nominal_controller, nominal_of, nominal_robot
 
+CORNERS = np.array(list(product((-1.0, 1.0), repeat=6)))
+CANDIDATES = 30000  # the most restrictive arm, with a longer tool, accepts one home in 10,000
 BATCHES = 3  # of rows; the second and third replace rows that a robot refuses
 
 
@@ -102,6 +107,45 @@ def draw(study: Study, number: int, row: Row) -> Setup:
         position_error_cm=float(f"{position:.4g}"),
         orientation_error_deg=float(f"{orientation:.4g}"),
     )
+
+
+def random_home(
+    nominal: Nominal, spread: float, random: np.random.Generator
+) -> tuple[Controller, int]:
+    """The controller at the first random home that it accepts, and the number of refused homes.
+
+    Args:
+        spread: rad, greatest distance of each joint from the robot's home, within its limits.
+        random: the generator that draws homes, in whole degrees.
+
+    Raises UnfitWorkspace.
+    """
+    robot = nominal_robot(nominal)
+    low = np.ceil(np.degrees(np.maximum(robot.home - spread, robot.lower)))
+    high = np.floor(np.degrees(np.minimum(robot.home + spread, robot.upper)))
+    chain = Chain.of(robot.arm)
+    for refused in range(CANDIDATES):
+        home = np.radians(random.integers(low, high, endpoint=True))
+        workspace = replace(robot.workspace, centre=robot.arm.forward(home[None])[0])
+        candidate = replace(robot, home=home, workspace=workspace)
+        if _reaches_corners(candidate, chain):
+            try:
+                return Controller(candidate, nominal.controller.greatest_condition), refused
+            except UnfitWorkspace:
+                pass
+    raise UnfitWorkspace(f"the {robot.name}'s controller refuses all of {CANDIDATES} random homes")
+
+
+def _reaches_corners(robot: Robot, chain: Chain) -> bool:
+    """Whether the arm reaches the corners of its workspace: a fast test that most homes fail."""
+    for corners in (CORNERS[::9], CORNERS):
+        angles = np.tile(robot.home, (len(corners), 1))
+        for part in (0.5, 1):  # from home outwards: all corners on the same branch of solutions
+            angles, residuals = chain.solve(robot.workspace.to_poses(part * corners), angles)
+            within = (robot.lower <= angles) & (angles <= robot.upper)
+            if not (np.all(residuals <= TOLERANCE) and within.all()):
+                return False
+    return True
 
 
 def ways_in(nominal: Nominal, levels: Mapping[str, Any], study: Study) -> Ways:
