@@ -29,9 +29,9 @@ from scipy.spatial.transform import Rotation
 from recalib.laboratory.scene import send_frame
 from recalib.nominal.poses import POSITION
 from recalib.nominal.robots import Robot
+from replication.recording.blueprint import Sight
 from replication.recording.colours import GREY, NOMINAL, REACHED, WHITE, Colour
 from replication.recording.phases import CLOCK, Clock, Motion
-from replication.recording.sight import Sight
 from replication.recording.watched import Watched
 from replication.training.measured import ERRORS
 

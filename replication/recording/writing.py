@@ -16,11 +16,10 @@ from replication.config.damages import damages_among
 from replication.config.study import Study
 from replication.recording import captions
 from replication.recording.arms import send_arms
-from replication.recording.blueprint import arrange
+from replication.recording.blueprint import arrange, sight_of
 from replication.recording.phases import move
 from replication.recording.recorded import recorded_history, typical_seed
 from replication.recording.scene import Scene, log_surroundings, send_learning, send_target
-from replication.recording.sight import sight_of
 from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved
 from replication.training.measured import ERRORS
