@@ -12,7 +12,7 @@ import mimetypes
 import subprocess
 import sys
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -73,13 +73,6 @@ def checksums() -> str:
     )
 
 
-def notes() -> Iterator[tuple[Path, Mapping[str, Any]]]:
-    """Each file that Snakemake made, with Snakemake's record of it."""
-    for path in sorted(NOTES.iterdir()):
-        name = base64.b64decode(path.name).decode()
-        yield Path(name), json.loads(path.read_text(encoding="utf-8"))
-
-
 def _moment(seconds: float) -> str:
     return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
 
@@ -123,7 +116,11 @@ def crate_of(citation: Mapping[str, Any]) -> ROCrate:
 
 def _add_run(crate: ROCrate, results: Mapping[Path, Path]) -> None:
     """Add an action for the whole run, and one for each job whose results are archived."""
-    noted = [(path, note) for path, note in notes() if path in results and note["endtime"]]
+    notes = [
+        (Path(base64.b64decode(path.name).decode()), json.loads(path.read_text(encoding="utf-8")))
+        for path in sorted(NOTES.iterdir())
+    ]
+    noted = [(path, note) for path, note in notes if path in results and note["endtime"]]
     first = min(note["starttime"] for _, note in noted)
     last = max(note["endtime"] for _, note in noted)
     crate.datePublished = datetime.fromtimestamp(last, UTC)

@@ -133,11 +133,10 @@ class Contents:
     def _needs(self, claim: Claim) -> str:
         try:
             claim.judge(self.evidence)
-        except TooFewSetups:
-            return ""
         except NotMeasured as error:
-            return f"`{error}`"
-        return "a run of the rule `claims`"
+            if not isinstance(error, TooFewSetups):
+                return f"`{error}`"
+        return ""
 
     @cached_property
     def verdicts(self) -> dict[str, list[Judged]]:
