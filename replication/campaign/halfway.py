@@ -4,6 +4,7 @@ Where its error falls fast and then slowly, a straight line between 5,000 and 20
 reaches the improved system's error too late.
 """
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,6 @@ from replication.campaign.variants import DOUBLE, variants
 from replication.config.study import Study
 from replication.training.poses import Stream
 from replication.training.search import Tuning
-from replication.training.trials import Trials
 
 ITERATIONS = 10_000
 
@@ -24,10 +24,7 @@ def halfway(study: Study, design: Path, outcomes: Path, setup: int, replicate: i
     """The row of Ritter's map after `ITERATIONS`, tuned near its settings for 5,000 iterations."""
     plan, variant = study.search, variants(study)[DOUBLE]
     measured = Replicate(study, read_design(design)[setup], replicate)
-
-    def trials(runs: int, stream: Stream, **words: int) -> Trials:
-        return measured.trials(variant, ITERATIONS, runs, stream, **words)
-
+    trials = partial(measured.trials, variant, ITERATIONS)
     numbers = range(1, plan.searches + 1)
     tuning = Tuning(
         [trials(plan.long_runs, Stream.SEARCH, number=number) for number in numbers],

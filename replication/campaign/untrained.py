@@ -11,7 +11,7 @@ from replication.campaign.measuring import short
 from replication.campaign.setups import read_design
 from replication.config.damages import damages_among
 from replication.config.study import Study
-from replication.mapping.coupling import coupling
+from replication.mapping.true_mapping import coupling
 from replication.scenarios.plants import nominal_controller
 from replication.training.measured import ERRORS, KINDS
 

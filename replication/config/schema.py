@@ -59,10 +59,7 @@ def _at(schema: JsonSchemaValue, part: str | int) -> JsonSchemaValue:
 
 
 def resolved(schema: JsonSchemaValue) -> JsonSchemaValue:
-    """The schema that a reference, or a choice between it and null, points to."""
-    for choice in schema.get("anyOf", ()):
-        if choice.get("type") != "null":
-            return resolved(choice)
+    """The schema itself, or the one that it refers to."""
     reference = schema.get("$ref")
     return json_schema()["$defs"][reference.rsplit("/")[-1]] if reference else schema
 

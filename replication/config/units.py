@@ -27,7 +27,6 @@ def _expected(valid: str) -> WrapValidator:
 
 
 def _text(pattern: str, valid: str, longest: int) -> Any:
-    """A type of text that must match a pattern."""
     return Annotated[
         str,
         StringConstraints(strict=True, pattern=pattern, max_length=longest),

@@ -75,7 +75,10 @@ def from_file(path: str | PathLike[str]) -> Placed:
     try:
         return _parsed(name, Path(path).read_text(encoding="utf-8-sig"))
     except MarkedYAMLError as error:
-        problem = _unreadable(name, error)
+        mark, of = error.problem_mark, error.context_mark
+        context = f" in the part from line {of.line + 1}" if of else ""
+        place = shown((name, mark.line + 1, mark.column + 1))
+        problem = f"{place}: invalid YAML: {str(error.problem).strip()}{context}"
     except OSError as error:
         problem = f"{name}: {error.strerror}"
     except (UnicodeDecodeError, YAMLError):
@@ -139,14 +142,6 @@ def _mistaken(problem: str, node: Node) -> MarkedYAMLError:
 
 def _place(node: Node, within: Place) -> Place:
     return within[0], node.start_mark.line + 1, node.start_mark.column + 1
-
-
-def _unreadable(name: str, error: MarkedYAMLError) -> str:
-    """Ruamel's message in one sentence."""
-    context = f" in the part from line {error.context_mark.line + 1}" if error.context_mark else ""
-    mark = error.problem_mark
-    problem = str(error.problem).strip()
-    return f"{shown((name, mark.line + 1, mark.column + 1))}: invalid YAML: {problem}{context}"
 
 
 def shown(place: Place) -> str:

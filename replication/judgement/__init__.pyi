@@ -1,13 +1,11 @@
 """The public names and their modules."""
 
-from .benchmark import moves_to_reach as moves_to_reach
-from .benchmark import put_together as put_together
-from .benchmark import real_errors as real_errors
 from .checks import BAND as BAND
 from .checks import check as check
 from .checks import expect as expect
 from .checks import propose as propose
 from .checks import report as report
+from .claims.claim import strongest as strongest
 from .contrasts import Compromise as Compromise
 from .contrasts import Contrast as Contrast
 from .contrasts import Crossing as Crossing
@@ -17,7 +15,7 @@ from .contrasts import crossing as crossing
 from .deviations import REMOVED as REMOVED
 from .deviations import Change as Change
 from .deviations import Deviations as Deviations
-from .effects import strongest as strongest
+from .deviations import digests as digests
 from .evidence import Evidence as Evidence
 from .evidence import NotMeasured as NotMeasured
 from .findings import Number as Number
@@ -27,8 +25,10 @@ from .hierarchy import Estimate as Estimate
 from .hierarchy import Model as Model
 from .hierarchy import model as model
 from .hierarchy import student as student
-from .registered import digests as digests
 from .summary import cells_of_mean as cells_of_mean
+from .summary import moves_to_reach as moves_to_reach
+from .summary import put_together as put_together
+from .summary import real_errors as real_errors
 from .summary import summarise as summarise
 from .verdicts import RATIO as RATIO
 from .verdicts import Comparison as Comparison

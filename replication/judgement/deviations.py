@@ -1,4 +1,4 @@
-"""Deviations: changes of the registration after a result had been seen, each with an entry.
+"""The registration before the campaign, and deviations: later changes, each with an entry.
 
 `python -m replication.judgement.deviations` prints the digests that a new entry must contain.
 """
@@ -9,13 +9,49 @@ from typing import Literal, Self
 
 from pydantic import Field
 
+from recalib.files.storage import digest
 from replication.config.part import Frozen
 from replication.config.reading import read_study
 from replication.config.shipped import DEVIATIONS
+from replication.config.study import Study
 from replication.config.values import from_file
-from replication.judgement.registered import digests
+from replication.judgement.claims import claims
 
+# Code and tables that determine a number, an interval or a verdict.
+FILES = (
+    "docs/registration.md",
+    "workflow/campaign/design.csv",
+    "replication/training/search.py",
+    "replication/training/settings.py",
+    "replication/training/trials.py",
+    "replication/campaign/measuring.py",
+    "replication/campaign/variants.py",
+    "replication/judgement/contrasts.py",
+    "replication/judgement/hierarchy.py",
+    "replication/judgement/verdicts.py",
+)
+PARTS = (
+    "seed",
+    "robot",
+    "scenario",
+    "robots",
+    "controller",
+    "paper_damage",
+    "scenarios",
+    "learners",
+    "mapping",
+    "search",
+    "campaign",
+)
 REMOVED = "removed"  # in place of the digest of a part that was removed
+
+
+def digests(study: Study, project: Path) -> dict[str, str]:
+    """Digests of all claims, parts of the configuration and files that determine verdicts."""
+    found = {claim.id: digest(repr(claim.registered).encode()) for claim in claims(study)}
+    for part in PARTS:
+        found[f"config.yaml: {part}"] = digest(repr(getattr(study, part)).encode())
+    return found | {name: digest((project / name).read_bytes()) for name in FILES}
 
 
 class Change(Frozen):

@@ -85,10 +85,6 @@ class Evidence:
         """The campaign's table. Raises NotMeasured."""
         return self.table(f"{CAMPAIGN}/outcomes.csv")
 
-    def halfway(self) -> pd.DataFrame:
-        """More rows of Ritter's map, which were measured after the campaign. Raises NotMeasured."""
-        return self.table(f"{CAMPAIGN}/halfway.csv")
-
     def levels(self) -> pd.DataFrame:
         """The levels of all factors in each setup, by the setup's number."""
         design = self.table(f"{CAMPAIGN}/design.csv").set_index("setup")

@@ -8,11 +8,11 @@ import pandas as pd
 from recalib.numerics.randomness import generator
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
-from replication.mapping.coupling import coupling
 from replication.mapping.nearness import nearness
 from replication.mapping.propagation import propagation
 from replication.mapping.quantisation import quantisation
 from replication.mapping.solutions import solutions
+from replication.mapping.true_mapping import coupling
 from replication.mapping.visits import visits
 from replication.scenarios.plants import Resolved
 from replication.training.constant_widths import constant_widths

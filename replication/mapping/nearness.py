@@ -5,7 +5,7 @@ import pandas as pd
 
 from recalib.nominal.poses import POSITION
 from recalib.numerics.randomness import generator
-from replication.mapping.coupling import coupling
+from replication.mapping.true_mapping import coupling
 from replication.scenarios.plants import Resolved
 
 # Relative sizes of the workspace along each position axis. At twice the size a UR10 still reaches

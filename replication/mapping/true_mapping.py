@@ -1,11 +1,14 @@
 """The true mapping, which learners approximate: from desired poses to commands that reach them."""
 
 import numpy as np
+import pandas as pd
 
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
+from recalib.nominal.poses import ORIENTATION, POSITION
 
+BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSITION)}
 STEP = 1e-4  # step of the central differences, in workspace coordinates: 25 um
 
 
@@ -31,3 +34,17 @@ def mapping_jacobians(controller: Controller, arm: DamagedArm, desired: np.ndarr
         for sign in (1, -1)
     )
     return (ahead - behind).swapaxes(1, 2) / (2 * STEP)
+
+
+def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd.DataFrame:
+    """Ratios of off-diagonal to diagonal blocks of the true mapping's Jacobian.
+
+    Returns a row for each of the desired poses (n, 6), with columns position and orientation for
+    the two commands: ratios of the blocks' Frobenius norms, in workspace coordinates.
+    """
+    jacobians = mapping_jacobians(controller, arm, desired)
+    norm = {
+        name: [np.linalg.norm(jacobians[:, row, column], axis=(1, 2)) for column in (row, other)]
+        for name, (row, other) in BLOCKS.items()
+    }
+    return pd.DataFrame({name: off / diagonal for name, (diagonal, off) in norm.items()})

@@ -12,7 +12,7 @@ import mimetypes
 import subprocess
 import sys
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -20,13 +20,12 @@ from typing import Any
 
 import yaml
 from rocrate.model import ContextEntity, Person
-from rocrate.model.computationalworkflow import ComputationalWorkflow
 from rocrate.rocrate import ROCrate
 
 import recalib
 from recalib.files.storage import whole
 from replication.config import shipped
-from replication.plots.figures import Figure
+from replication.plots.figures import APART
 
 RESULTS, PUBLISHED = Path(shipped.RESULTS), Path("published")  # folders here and in the archive
 NOTES = Path(".snakemake/metadata")  # Snakemake's records of the files that it made
@@ -44,7 +43,7 @@ CHOSEN = (
     "recordings/*.rrd",
 )
 REPEATABLE = {".csv", ".json", ".parquet", ".svg"}  # identical bytes in every run
-APART = {Figure.BENCHMARK.file, Figure.REAL_ARM.file}  # not made by the default target
+NOT_MADE = {figure.file for figure in APART}  # by the default target
 PROFILES = {
     "https://w3id.org/ro/wfrun/process/0.5": "Process Run Crate",
     "https://w3id.org/ro/wfrun/workflow/0.5": "Workflow Run Crate",
@@ -70,15 +69,8 @@ def checksums() -> str:
     return "".join(
         f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(RESULTS)}\n"
         for path in chosen()
-        if path.suffix in REPEATABLE and path.stem not in APART
+        if path.suffix in REPEATABLE and path.stem not in NOT_MADE
     )
-
-
-def notes() -> Iterator[tuple[Path, Mapping[str, Any]]]:
-    """Each file that Snakemake made, with Snakemake's record of it."""
-    for path in sorted(NOTES.iterdir()):
-        name = base64.b64decode(path.name).decode()
-        yield Path(name), json.loads(path.read_text(encoding="utf-8"))
 
 
 def _moment(seconds: float) -> str:
@@ -100,12 +92,11 @@ def crate_of(citation: Mapping[str, Any]) -> ROCrate:
         }
         entity = crate.add(ContextEntity(crate, address, profile))
         crate.root_dataset.append_to("conformsTo", entity)
-    authors = [
+    crate.root_dataset["author"] = [
         crate.add(Person(crate, f"#{author['name']}", {"name": author["name"]}))
         for author in citation["authors"]
     ]
-    crate.root_dataset["author"] = authors
-    workflow = crate.add_workflow(
+    crate.add_workflow(
         "Snakefile",
         "Snakefile",
         properties={"name": "The replication", "license": LICENCE},
@@ -119,22 +110,23 @@ def crate_of(citation: Mapping[str, Any]) -> ROCrate:
         kind = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
         properties = {"encodingFormat": kind, "contentSize": str(path.stat().st_size)}
         crate.add_file(path, place.as_posix(), properties=properties)
-    _add_run(crate, workflow, results, authors)
+    _add_run(crate, results)
     return crate
 
 
-def _add_run(
-    crate: ROCrate,
-    workflow: ComputationalWorkflow,
-    results: Mapping[Path, Path],
-    authors: list[Person],
-) -> None:
+def _add_run(crate: ROCrate, results: Mapping[Path, Path]) -> None:
     """Add an action for the whole run, and one for each job whose results are archived."""
-    noted = [(path, note) for path, note in notes() if path in results and note["endtime"]]
+    notes = [
+        (Path(base64.b64decode(path.name).decode()), json.loads(path.read_text(encoding="utf-8")))
+        for path in sorted(NOTES.iterdir())
+    ]
+    noted = [(path, note) for path, note in notes if path in results and note["endtime"]]
+    first = min(note["starttime"] for _, note in noted)
+    last = max(note["endtime"] for _, note in noted)
+    crate.datePublished = datetime.fromtimestamp(last, UTC)
+    workflow, authors = crate.mainEntity, crate.root_dataset["author"]
     properties = {"name": "A run of the workflow", "agent": authors}
-    if noted:
-        properties["startTime"] = _moment(min(note["starttime"] for _, note in noted))
-        properties["endTime"] = _moment(max(note["endtime"] for _, note in noted))
+    properties |= {"startTime": _moment(first), "endTime": _moment(last)}
     entities = [crate.dereference(place.as_posix()) for place in results.values()]
     actions = [crate.add_action(workflow, "#run", result=entities, properties=properties)]
     tools = {}
@@ -157,8 +149,6 @@ def _add_run(
         )
         actions.append(job)
     crate.root_dataset["mentions"] = actions
-    last = max((note["endtime"] for _, note in noted), default=0)
-    crate.datePublished = datetime.fromtimestamp(last, UTC)
 
 
 def pack(archive: Path) -> None:

@@ -1,6 +1,6 @@
 """Choices in config.yaml, each with its reason, which is in a comment next to it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -27,18 +27,6 @@ def read_choices(path: Path) -> dict[str, Choice]:
 def factor(name: str) -> str:
     """The description of a factor of the campaign."""
     return str(Factors.model_fields[name].description).rstrip(".")
-
-
-def alternatives(factors: Factors, choices: Mapping[str, Choice]) -> list[Choice]:
-    """The factors of the campaign with their levels; the reference study's level comes first."""
-    return [
-        Choice(
-            factor(name),
-            tuple(str(level).replace("_", " ") for level in getattr(factors, name)),
-            choices[f"campaign.factors.{name}"].reason,
-        )
-        for name in Factors.model_fields
-    ]
 
 
 def _choices(node: yaml.MappingNode, above: str, text: str) -> Iterator[Choice]:

@@ -12,9 +12,10 @@ import numpy as np
 import pandas as pd
 
 from replication.campaign.variants import DOUBLE, variants
-from replication.config.shipped import root_of
+from replication.config.shipped import CAMPAIGN, root_of
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
+from replication.judgement.checks import KEYS as TRAINING
 from replication.judgement.claims import claims
 from replication.judgement.claims.claim import Claim, OfSetups, Statement, TooFewSetups
 from replication.judgement.contrasts import KEYS, Crossing, Remaining
@@ -23,7 +24,7 @@ from replication.judgement.evidence import Evidence, NotMeasured
 from replication.judgement.findings import Finding, Number, number
 from replication.judgement.hierarchy import Estimate
 from replication.judgement.verdicts import Verdict
-from replication.pages.choices import Choice, alternatives, factor, read_choices
+from replication.pages.choices import Choice, factor, read_choices
 from replication.pages.formats import estimate, interval, percent, short
 from replication.pages.guidance import Benchmark
 from replication.pages.imprint import Imprint
@@ -132,11 +133,10 @@ class Contents:
     def _needs(self, claim: Claim) -> str:
         try:
             claim.judge(self.evidence)
-        except TooFewSetups:
-            return ""
         except NotMeasured as error:
-            return f"`{error}`"
-        return "a run of the rule `claims`"
+            if not isinstance(error, TooFewSetups):
+                return f"`{error}`"
+        return ""
 
     @cached_property
     def verdicts(self) -> dict[str, list[Judged]]:
@@ -172,7 +172,8 @@ class Contents:
     def halfway(self) -> Number:
         """Of how many times as many iterations Ritter's map needs, with `halfway` in each setup."""
         goal = Remaining(IMPROVED, self.study.experiments.iterations)
-        outcomes = pd.concat([self.evidence.outcomes(), self.evidence.halfway()])
+        more = self.evidence.table(f"{CAMPAIGN}/halfway.csv")
+        outcomes = pd.concat([self.evidence.outcomes(), more])
         found = Crossing(DOUBLE, goal).values(outcomes).model()
         return number("", "", found.mean, found.another)
 
@@ -200,10 +201,7 @@ class Contents:
     @cached_property
     def own(self) -> dict[str, Any]:
         """The row of the improved system in the summary, for Figure 1."""
-        table = self.evidence.table("summary.csv").set_index(
-            ["robot", "scenario", "learner", "iterations"]
-        )
-        study = self.study
+        study, table = self.study, self.evidence.table("summary.csv").set_index(TRAINING)
         iterations = study.experiments.iterations
         return table.loc[study.robot, study.scenario, IMPROVED, iterations].to_dict()
 
@@ -230,19 +228,21 @@ class Contents:
         return [_words(entry) for entry in self.evidence.scenario()["damages"]]
 
     @cached_property
-    def assignments(self) -> int:
-        """Assignments of the paper's damage to the study's robot that were tried."""
-        return len(self.evidence.assignments())
-
-    @cached_property
     def choices(self) -> dict[str, Choice]:
         """Keys of config.yaml with their values and reasons."""
         return read_choices(self.project / "config.yaml")
 
     @cached_property
     def alternatives(self) -> list[Choice]:
-        """What the campaign's setups decide otherwise."""
-        return alternatives(self.study.campaign.factors, self.choices)
+        """The factors of the campaign with their levels; the reference study's comes first."""
+        return [
+            Choice(
+                factor(name),
+                tuple(str(level).replace("_", " ") for level in levels),
+                self.choices[f"campaign.factors.{name}"].reason,
+            )
+            for name, levels in self.study.campaign.factors
+        ]
 
     def factor(self, name: str) -> str:
         """What a factor of the campaign is, within a sentence."""
@@ -264,11 +264,6 @@ class Contents:
         """What one should use today. Raises NotMeasured."""
         tables = map(self.evidence.table, ("benchmark.csv", "benchmark_moves.csv"))
         return Benchmark(self.study.benchmark, *tables)
-
-    @cached_property
-    def real(self) -> pd.DataFrame:
-        """Errors on the real arm. Raises NotMeasured."""
-        return self.evidence.table("real.csv")
 
 
 def _named(name: str) -> str:

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from replication.judgement.evidence import Evidence
-from replication.plots.palette import BORDER, BOTH, GREY, Style, styles_of
+from replication.plots.palette import BORDER, BOTH, GREY, STYLES, Style, styles_of
 from replication.plots.style import WIDTH, band, legend_below, logarithmic, note, words
 
 SHOWN = {
@@ -35,7 +35,7 @@ def benchmark(evidence: Evidence) -> Figure:
     for axes, (scenario, name) in zip(panels[0], shown.items(), strict=True):
         for learner, style in learners.items():
             results = table[(table["scenario"] == scenario) & (table["learner"] == learner)]
-            _draw(axes, results["moves"], results, BOTH[0].column, style, learner == UNDER)
+            _draw(axes, results.set_index("moves"), BOTH[0].column, style, style.label)
         axes.set_title(name)
         axes.set_xlabel("robot moves")
         logarithmic(axes.xaxis, 1, 100, 10_000)
@@ -57,7 +57,7 @@ def real_arm(evidence: Evidence) -> Figure:
         for number, piece in results.groupby(pieces):
             label = styles[learner].label + (" on a twin" if twin else "")
             shown = None if number else label
-            _draw(axes, piece["poses"], piece, REAL, styles[learner], learner == UNDER, shown)
+            _draw(axes, piece.set_index("poses"), REAL, styles[learner], shown)
     axes.axhline(published, **BORDER)
     font = {"va": "top", "ha": "right", "color": GREY}
     note(axes, f"published: {published:.2g} mm", (table["poses"].max(), published), (0, -2), **font)
@@ -69,24 +69,17 @@ def real_arm(evidence: Evidence) -> Figure:
     return figure
 
 
-def _draw(
-    axes: Axes,
-    places: pd.Series,
-    table: pd.DataFrame,
-    error: str,
-    style: Style,
-    under: bool,
-    label: str | None = "",
-) -> None:
-    """Draw means and intervals of a learner; with `under`, wider, as another may cover them."""
+def _draw(axes: Axes, table: pd.DataFrame, error: str, style: Style, label: str | None) -> None:
+    """Draw means and intervals of a learner against the table's index."""
     low, middle, high = (table[f"{error}{end}"].clip(SMALLEST) for end in ("_low", "", "_high"))
-    band(axes, places, (low, high), style.color)
+    under = style is STYLES[UNDER]
+    band(axes, table.index, (low, high), style.color)
     axes.plot(
-        places,
+        table.index,
         middle,
         marker=style.marker or None,
         markersize=6 if under else 3.5,
         linewidth=4 if under else 1.2,
-        label=style.label if label == "" else label,
+        label=label,
         **style.line(),
     )

@@ -68,10 +68,8 @@ def _label_ends(axes: Axes, means: pd.DataFrame, row: int, aside: float) -> None
 
 def learners(evidence: Evidence) -> Figure:
     """All learners in the scenario of Figure 1, on logarithmic axes."""
-    training, lengths = leading(evidence.study), evidence.study.experiments.learners
-    styles = styles_of_trainings(
-        (learner, iterations) for learner in lengths for iterations in lengths[learner]
-    )
+    training = leading(evidence.study)
+    styles = styles_of_trainings(evidence.study.experiments.learners)
     figure, panels = plt.subplots(1, 2, sharex=True, figsize=(WIDTH, 3.1))
     for axes, error in zip(panels, BOTH, strict=True):
         for (learner, iterations), style in styles.items():
@@ -109,7 +107,7 @@ def scenarios(evidence: Evidence) -> Figure:
         for place in trained
     ]
     rows = np.arange(len(trained))[::-1]
-    styles = styles_of_trainings((name, length) for name in main for length in main[name])
+    styles = styles_of_trainings(main)
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(WIDTH, 1.4 + 0.34 * len(rows)))
     offsets = 0.24 * (np.arange(len(styles))[::-1] - (len(styles) - 1) / 2)
     for axes, error in zip(panels, BOTH, strict=True):

@@ -1,6 +1,6 @@
 """Colours and markers of all figures, distinct in black and white and to the colour-blind."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import cycle
 from typing import Any
@@ -78,9 +78,9 @@ def styles_of(learners: Iterable[str]) -> dict[str, Style]:
     }
 
 
-def styles_of_trainings(trainings: Iterable[Training]) -> dict[Training, Style]:
+def styles_of_trainings(lengths: Mapping[str, Iterable[int]]) -> dict[Training, Style]:
     """The styles of trainings: a learner's style for its longest one, paler for shorter ones."""
-    ordered = sorted(trainings)
+    ordered = sorted((name, length) for name in lengths for length in lengths[name])
     longest, unknown = dict(ordered), cycle(reversed(UNKNOWN))
     by_learner, styles = styles_of(longest), {}
     for name, length in ordered:

@@ -79,7 +79,6 @@ def _needed(values: Values, reference: int) -> tuple[np.ndarray, int]:
 
 
 def _in_words(needed: float, reference: int, bound: int = 0) -> str:
-    """Iterations and factor as text."""
     sign = {1: "> ", -1: "< "}.get(bound, "")
     iterations, factor = (float(f"{value:.2g}") for value in (needed, needed / reference))
     return f"{sign}{iterations:,g} ({factor:,g}×)"

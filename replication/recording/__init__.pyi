@@ -1,5 +1,6 @@
 """The public names and their modules."""
 
+from .blueprint import sight_of as sight_of
 from .film import take_film as take_film
 from .in_browser import script as script
 from .phases import BEFORE as BEFORE
@@ -10,7 +11,6 @@ from .phases import VISIT as VISIT
 from .phases import move as move
 from .recorded import recorded_places as recorded_places
 from .recorded import typical_seed as typical_seed
-from .sight import sight_of as sight_of
 from .watched import visiting_order as visiting_order
 from .writing import check_end as check_end
 from .writing import record as record

@@ -11,9 +11,9 @@ from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.laboratory.scene import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
-from recalib.nominal.robots import Robot
 from replication.config.damages import joint_of, link_of
 from replication.recording.colours import DAMAGE, NOMINAL
+from replication.recording.phases import CLOCK
 from replication.recording.scene import ASSUMED, REAL, Scene, send_gripper
 
 BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `Scene.unit`
@@ -28,12 +28,15 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
     """
     rec, learner, robot = scene.rec, scene.learner, scene.robot
     motion, unit = scene.motion, scene.unit
-    damaged, base = apply(robot, damages), base_shift(robot, damages)
+    damaged, first = apply(robot, damages), robot.arm.model.jointPlacements[1]
+    shifted = apply(robot, [damage for damage in damages if isinstance(damage, BaseShift)])
+    base = shifted.arm.model.jointPlacements[1] * first.inverse()  # in the nominal base frame
     source = read_file(robot.urdf, MOST)
     visuals, missing = log_meshes(rec, source, robot.urdf, learner)
     if missing:
         raise InvalidFile(robot.urdf, f"mesh {missing[0]!r} is in none of its packages and folders")
-    clock, standing = motion.clock(), damaged.standing(motion.angles)
+    clock = [rr.TimeColumn(CLOCK, sequence=motion.frames)]
+    standing = damaged.standing(motion.angles)
     moved = {number: link for link, number in robot.links.items()}  # by the joint that moves them
     damaged_joints = {joint: robot.joints.index(joint) for joint in map(joint_of, damages) if joint}
     links = dict.fromkeys([*visuals, *(moved[1 + index] for index in damaged_joints.values())])
@@ -62,13 +65,6 @@ def send_arms(scene: Scene, damages: Sequence[Damage]) -> None:
         ):
             strips = [circle(at, FOOT * unit)]
             scene.log(f"{name}/base", rr.LineStrips3D(strips, radii=BONE * unit / 2, colors=colour))
-
-
-def base_shift(robot: Robot, damages: Sequence[Damage]) -> pin.SE3:
-    """The pose of the damaged robot's base in the nominal base frame."""
-    shifts = apply(robot, [damage for damage in damages if isinstance(damage, BaseShift)])
-    first = robot.arm.model.jointPlacements[1]
-    return shifts.arm.model.jointPlacements[1] * first.inverse()
 
 
 def circle(placement: pin.SE3, radius: float) -> np.ndarray:

@@ -61,7 +61,6 @@ def take_film(recording: Path, film: Path) -> None:
 
 
 def _frames(recording: Path) -> np.ndarray:
-    """The frames of the recording for the film."""
     chunks = RrdReader(recording).store().stream().to_chunks()
     batches = [chunk.to_record_batch() for chunk in chunks]
     numbers = [batch[CLOCK].to_pylist() for batch in batches if CLOCK in batch.schema.names]

@@ -32,10 +32,6 @@ class Motion:
     departures: np.ndarray
     iterations: np.ndarray  # (measurement,) numbers of iterations before each measurement
 
-    def clock(self) -> Clock:
-        """The times of all frames."""
-        return [rr.TimeColumn(CLOCK, sequence=self.frames)]
-
     def measurements(self) -> tuple[Clock, np.ndarray]:
         """The times at which measurements are shown, and their indices.
 

@@ -29,9 +29,9 @@ from scipy.spatial.transform import Rotation
 from recalib.laboratory.scene import send_frame
 from recalib.nominal.poses import POSITION
 from recalib.nominal.robots import Robot
+from replication.recording.blueprint import Sight
 from replication.recording.colours import GREY, NOMINAL, REACHED, WHITE, Colour
 from replication.recording.phases import CLOCK, Clock, Motion
-from replication.recording.sight import Sight
 from replication.recording.watched import Watched
 from replication.training.measured import ERRORS
 
@@ -93,9 +93,16 @@ class Scene:
         self.log(part, style)
 
 
-def log_surroundings(scene: Scene, description: str) -> None:
-    """Log the text and, for the map, the workspace's box and the desired positions."""
+def log_surroundings(scene: Scene, description: str, legend: Mapping[str, Colour]) -> None:
+    """Log the texts and, for the map, the workspace's box and the desired positions.
+
+    The legend is in the corner below the base, each line in its own colour.
+    """
     rec, workspace, unit = scene.rec, scene.robot.workspace, scene.unit
+    aside, above = LEGEND
+    places = [scene.sight.place(aside, above - LINE * number) for number in range(len(legend))]
+    lines = rr.Points3D(places, radii=0, colors=[*legend.values()], labels=[*legend])
+    rec.log("legend", lines, static=True)
     rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     rec.log("about", rr.TextDocument(description, media_type="text/markdown"), static=True)
     box = rr.Boxes3D(
@@ -108,14 +115,6 @@ def log_surroundings(scene: Scene, description: str) -> None:
     scene.log("map/workspace", box)
     positions = scene.watched.desired[:, :3, 3]
     scene.log("map/desired", rr.Points3D(positions, colors=WHITE, radii=OUTLINE.half * unit))
-
-
-def log_legend(rec: rr.RecordingStream, sight: Sight, lines: Mapping[str, Colour]) -> None:
-    """Log the legend in the corner below the base, each line in its own colour."""
-    aside, above = LEGEND
-    places = [sight.place(aside, above - LINE * number) for number in range(len(lines))]
-    legend = rr.Points3D(places, radii=0, colors=[*lines.values()], labels=[*lines])
-    rec.log("legend", legend, static=True)
 
 
 def send_target(scene: Scene, captions: Sequence[str]) -> None:
@@ -148,35 +147,26 @@ def send_gripper(
     scene.log(part, boxes, rr.CoordinateFrame(frame))
 
 
-def send_errors(scene: Scene) -> None:
-    """Send mean errors over all test poses."""
-    results, (clock, rows) = scene.watched.history.columns(), scene.motion.measurements()
+def send_learning(scene: Scene) -> None:
+    """Send what each measurement shows: mean errors, errors of the shown poses, and the map.
+
+    Errors of positions are lines from the desired to the achieved ones. The supernet's cells are
+    sized by how much they learned last; their corrections are drawn to scale.
+    """
+    watched, unit, (clock, rows) = scene.watched, scene.unit, scene.motion.measurements()
+    results = watched.history.columns()
     # show all numbers: the viewer would otherwise average them
     style = rr.SeriesLines(names=scene.learner, colors=NOMINAL, widths=3, aggregation_policy="off")
     for quantity in ERRORS:
         entity = f"errors/{quantity}/{scene.learner}"
         scene.rec.send_columns(entity, clock, rr.Scalars.columns(scalars=results[quantity][rows]))
         scene.rec.log(entity, style, static=True)
-
-
-def send_landings(scene: Scene) -> None:
-    """Send position errors, as lines from the desired to the achieved positions."""
-    _, rows = scene.motion.measurements()
-    achieved = scene.watched.achieved[rows][..., :3, 3]
-    desired = np.broadcast_to(scene.watched.desired[:, :3, 3], achieved.shape)
+    achieved = watched.achieved[rows][..., :3, 3]
+    desired = np.broadcast_to(watched.desired[:, :3, 3], achieved.shape)
     misses = np.stack([desired, achieved], axis=2).reshape(-1, 2, 3)
-    style = rr.LineStrips3D.from_fields(colors=REACHED, radii=0.02 * scene.unit)
+    line = rr.LineStrips3D.from_fields(colors=REACHED, radii=0.02 * unit)
     lines = rr.LineStrips3D.columns(strips=misses)
-    scene.show("map/miss", lines, len(scene.watched.desired), style)
-
-
-def send_map(scene: Scene) -> None:
-    """Send the supernet's cells, sized by how much they learned last, and their corrections.
-
-    Corrections are drawn to scale.
-    """
-    watched, unit = scene.watched, scene.unit
-    _, rows = scene.motion.measurements()
+    scene.show("map/miss", lines, len(watched.desired), line)
     points = rr.Points3D.columns(radii=(0.022 + 0.038 * watched.weights[rows].ravel()) * unit)
     cell = rr.Points3D(watched.centres, colors=NOMINAL)
     scene.show("map/cells", points, len(watched.centres), cell)

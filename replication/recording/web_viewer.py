@@ -63,8 +63,7 @@ def embed(recording: Path, folder: Path) -> None:
 
 def _fetch(address: str) -> bytes:
     with urlopen(address) as page:
-        content: bytes = page.read()
-        return content
+        return page.read()
 
 
 if __name__ == "__main__":

@@ -16,19 +16,10 @@ from replication.config.damages import damages_among
 from replication.config.study import Study
 from replication.recording import captions
 from replication.recording.arms import send_arms
-from replication.recording.blueprint import arrange
+from replication.recording.blueprint import arrange, sight_of
 from replication.recording.phases import move
 from replication.recording.recorded import recorded_history, typical_seed
-from replication.recording.scene import (
-    Scene,
-    log_legend,
-    log_surroundings,
-    send_errors,
-    send_landings,
-    send_map,
-    send_target,
-)
-from replication.recording.sight import sight_of
+from replication.recording.scene import Scene, log_surroundings, send_learning, send_target
 from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved
 from replication.training.measured import ERRORS
@@ -83,15 +74,12 @@ def write_recording(path: Path, resolved: Resolved, learner: str, watched: Watch
         rec.save(temporary, default_blueprint=arrange(learner, watched, sight))
         rec.send_recording_name(path.stem)
         rec.send_property("run", rr.AnyValues(**captions.properties(resolved)))
-        description = captions.description(resolved, watched)
-        log_legend(rec, sight, captions.legend(resolved))
         scene = Scene(rec, learner, robot, watched, motion, sight)
-        log_surroundings(scene, description)
+        description = captions.description(resolved, watched)
+        log_surroundings(scene, description, captions.legend(resolved))
         send_arms(scene, damages)
         send_target(scene, captions.progress(resolved, watched))
-        send_errors(scene)
-        send_landings(scene)
-        send_map(scene)
+        send_learning(scene)
         rec.disconnect()
         check_end(temporary)
 

@@ -24,7 +24,7 @@ MOST_CELLS = 1_000_000  # in a map; a training has many maps, and a cell has 42 
 
 def check(study: Study) -> list[Mistake]:
     """Mistakes that can be found without a robot, of the first kind of which there are any."""
-    for kind in (_robot, _names, _meanings, _amounts, _evidence):
+    for kind in (_names, _meanings, _amounts, _evidence):
         if found := list(kind(study)):
             return found
     return []
@@ -50,14 +50,11 @@ def _places(path: KeyPath, names: Iterable[Any]) -> dict[KeyPath, Any]:
     return {(*path, str(name) if by_key else index): name for index, name in enumerate(names)}
 
 
-def _robot(study: Study) -> Iterator[Mistake]:
-    """An unknown robot. It is checked first because learners depend on its workspace."""
-    if study.robot not in study.robots:
-        yield unknown(("robot",), study.robot, study.robots)
-
-
 def _names(study: Study) -> Iterator[Mistake]:
     """Unknown names, and names that already have another meaning."""
+    if study.robot not in study.robots:
+        yield unknown(("robot",), study.robot, study.robots)
+        return  # learners depend on its workspace
     plan, benchmark, real = study.experiments, study.benchmark, study.real
     papers = list(study.every_learner)
     references: tuple[tuple[dict[KeyPath, str], Iterable[str]], ...] = (

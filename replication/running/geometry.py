@@ -41,20 +41,17 @@ def check_robots(study: Study) -> list[Mistake]:
             mistakes += list(_of_slides(robots[name])) or _of_links(robots[name], entry.links)
     if mistakes:
         return mistakes
-    assigned = []
     for name in dict.fromkeys(robot for robot, _ in used):
         try:
             Controller(robots[name], study.controller.greatest_condition)
         except RecalibError as error:
             mistakes.append(_of_robot(name, error))
             continue
-        scenarios = [scenario for robot, scenario in used if robot == name]
-        for scenario in scenarios:
+        for scenario in (scenario for robot, scenario in used if robot == name):
             mistakes += _of_scenario(study, scenario, robots[name])
-        if has_part(study, scenarios):
-            assigned.append(robots[name])
-    if assigned and not mistakes:
-        by_robot = (list(_of_assignment(robot, study)) for robot in assigned)
+    if not mistakes:
+        assigned = dict.fromkeys(robot for robot, scenario in used if has_part(study, [scenario]))
+        by_robot = (list(_of_assignment(robots[name], study)) for name in assigned)
         mistakes += next(filter(None, by_robot), [])  # other robots' mistakes would be the same
     if study.experiments.evidence and not mistakes:
         own = robots[study.robot]

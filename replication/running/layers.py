@@ -7,9 +7,6 @@ import hashlib
 from functools import cache
 from pathlib import Path
 
-import recalib
-import replication
-
 LAYERS = (
     "recalib",
     "replication.config",
@@ -22,7 +19,7 @@ LAYERS = (
     "replication.recording",
     "replication.pages",
 )
-HOMES = {module.__name__: Path(module.__path__[0]) for module in (recalib, replication)}
+PROJECT = Path(__file__).parents[2]
 
 
 @cache
@@ -30,7 +27,6 @@ def digest(layer: str) -> str:
     """The digest of the code of a layer and all lower layers."""
     hasher = hashlib.sha256()
     for name in LAYERS[: LAYERS.index(layer) + 1]:
-        package, *folders = name.split(".")
-        for path in sorted(HOMES[package].joinpath(*folders).rglob("*.py")):
+        for path in sorted(PROJECT.joinpath(*name.split(".")).rglob("*.py")):
             hasher.update(path.read_bytes())
     return hasher.hexdigest()

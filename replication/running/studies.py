@@ -38,17 +38,6 @@ def digests(study: Study) -> dict[str, str]:
     return {key: digest(json.dumps(part, sort_keys=True).encode()) for key, part in parts.items()}
 
 
-def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
-    """Raise RecalibError if a study with the shipped study's name does not match the lock."""
-    now = digests(study)
-    if changed := [key for key in now if now[key] != lock.get(key)]:
-        raise RecalibError(
-            f"not the shipped study: it differs in {', '.join(changed)}, and only the shipped study"
-            f" may write README, docs and figures; try: add `name: my_study` to the changes, for"
-            f" results in {root_of('my_study')}, or `make ship` to ship this study instead"
-        )
-
-
 def study_of(
     project: Path,
     files: Sequence[Path] = (),
@@ -78,8 +67,13 @@ def study_of(
     if asking:
         checks.append(check_robots)
     study = read_study(base, *own, checks=checks)
-    if study.name == SHIPPED:
-        check_shipped(study, lock)
+    changed = [key for key, now in digests(study).items() if now != lock.get(key)]
+    if study.name == SHIPPED and changed:
+        raise RecalibError(
+            f"not the shipped study: it differs in {', '.join(changed)}, and only the shipped study"
+            f" may write README, docs and figures; try: add `name: my_study` to the changes, for"
+            f" results in {root_of('my_study')}, or `make ship` to ship this study instead"
+        )
     return study
 
 
@@ -98,17 +92,15 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
         case str(name) if name in valid:
             other = valid.pop(name)
         case str(name):
-            raise _refused(like, unknown((LIKE,), name, valid))
+            mistake = unknown((LIKE,), name, valid)
+            raise InvalidConfiguration([f"{shown(like.place)}: {mistake}"])
         case value:
-            raise _refused(like, unlike((LIKE,), value, f"one of {listed(valid, 'and')}"))
+            mistake = unlike((LIKE,), value, f"one of {listed(valid, 'and')}")
+            raise InvalidConfiguration([f"{shown(like.place)}: {mistake}"])
     defaults = {"name": Path(str(layer.place[0])).stem, "expected": None}
     content = {key: value for key, value in layer.content.items() if key != LIKE}
     content = from_mapping(defaults, layer.place[:1]).content | content
     return [*layers_of(other, [*valid.values()]), Placed(content, layer.place)]
-
-
-def _refused(value: Placed, mistake: Mistake) -> InvalidConfiguration:
-    return InvalidConfiguration([f"{shown(value.place)}: {mistake}"])
 
 
 def _typed(value: Any) -> Any:

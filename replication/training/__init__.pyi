@@ -19,7 +19,6 @@ from .poses import train_for_results as train_for_results
 from .real_arm import learn as learn
 from .real_arm import remaining_errors as remaining_errors
 from .real_arm import with_tool_point as with_tool_point
-from .scenarios import write_scenarios as write_scenarios
 from .search import Tuning as Tuning
 from .search import worse as worse
 from .settings import Space as Space
@@ -27,6 +26,7 @@ from .tracker import fetch as fetch
 from .tracker import fetched as fetched
 from .tracker import read_of as read_of
 from .tracker import read_whole_description as read_whole_description
+from .train import write_scenarios as write_scenarios
 from .trials import Outcome as Outcome
 from .trials import Trials as Trials
 from .tuned import Tuned as Tuned

@@ -54,22 +54,17 @@ class Stream(Enum):
         kind = SearchPoses if searched else ResultPoses
 
         def drawn(use: str, count: int, how: str) -> np.ndarray:
-            return np.stack([ORDERS[how](generator(seed, name, run, use), count) for run in runs])
+            return np.stack([_poses(generator(seed, name, run, use), count, how) for run in runs])
 
         return kind(name, drawn("desired", iterations, order), drawn("tests", tests, "random"))
 
 
-def _independent(random: np.random.Generator, count: int) -> np.ndarray:
-    return random.uniform(-1, 1, (count, 6))
-
-
-def _spread_evenly(random: np.random.Generator, count: int) -> np.ndarray:
+def _poses(random: np.random.Generator, count: int, order: str) -> np.ndarray:
+    if order == "random":
+        return random.uniform(-1, 1, (count, 6))
     from scipy.stats import qmc  # importing it takes a third of a second
 
     return 2 * qmc.Sobol(6, rng=random).random_base2((count - 1).bit_length())[:count] - 1
-
-
-ORDERS = {"random": _independent, "even": _spread_evenly}
 
 
 @dataclass(frozen=True)

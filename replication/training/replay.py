@@ -21,13 +21,11 @@ def replay(
     table: dict[bytes, Outcome] = {}
 
     def by_robot(commands: np.ndarray) -> Outcome:
-        """Execute commands, and record the outcome."""
         table[commands.tobytes()] = plant.execute(commands)
         return table[commands.tobytes()]
 
     def by_table(commands: np.ndarray) -> Outcome:
-        """Look up the outcome; a command that was never sent raises KeyError."""
-        return table[commands.tobytes()]
+        return table[commands.tobytes()]  # KeyError: a command that was never sent
 
     learned = []
     for execute in (by_robot, by_table):

@@ -56,8 +56,7 @@ class Tuned:
 
     def __init__(self, study: Study, files: Iterable[Path]):
         self._study = study
-        tables = [pd.read_csv(path) for path in files]
-        table = pd.concat(tables).query("setup == 0 and replicate == 0")
+        table = pd.concat(map(pd.read_csv, files)).query("setup == 0 and replicate == 0")
         self._rows = table.drop_duplicates(["variant", "iterations"], keep="last").set_index(
             ["variant", "iterations"]
         )

@@ -30,7 +30,7 @@ rule scenarios:
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        **calls("training.scenarios:write_scenarios"),
+        **calls("training.train:write_scenarios"),
     message:
         "Apply the damages to the robots"
     script:

@@ -4,6 +4,7 @@ Changes after a result had been seen are listed in `workflow/deviations.yaml`.
 """
 
 from contextlib import suppress
+from dataclasses import replace
 
 from replication.config.study import Study
 from replication.judgement.claims import (
@@ -26,13 +27,18 @@ from replication.judgement.findings import Finding, written
 def claims(study: Study) -> list[Claim]:
     """All claims of the paper."""
     iterations, late = study.experiments.iterations, study.campaign.late
+    sections = {
+        "3": section_3.claims(iterations),
+        "4": section_4.claims(iterations, late),
+        "5": section_5.claims(iterations),
+        "6": section_6.claims(iterations),
+        "7": section_7.claims(iterations),
+        "8": section_8.claims(iterations),
+    }
     return [
-        *section_3.claims(iterations),
-        *section_4.claims(iterations, late),
-        *section_5.claims(iterations),
-        *section_6.claims(iterations),
-        *section_7.claims(iterations),
-        *section_8.claims(iterations),
+        replace(claim, section=claim.section or section)
+        for section, found in sections.items()
+        for claim in found
     ]
 
 

@@ -5,12 +5,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+import pandas as pd
+from scipy.stats import f_oneway
 
 from replication.config.shipped import FEWEST
 from replication.judgement.contrasts import Estimand, Values
-from replication.judgement.effects import strongest
 from replication.judgement.evidence import Evidence, NotMeasured
 from replication.judgement.findings import Finding, Number, Spread, number, spread
+from replication.judgement.hierarchy import LEVEL
 from replication.judgement.verdicts import RATIO, Comparison, Verdict
 
 
@@ -19,11 +21,11 @@ class Statement:
     """A statement in the paper, and the criterion that would support it."""
 
     id: str  # its name
-    section: str  # the section of the paper
     words: str  # a quotation from the paper
     claim: str  # the claim in one sentence
     criterion: str  # the condition that supports the claim
     reason: str  # why this criterion was chosen
+    section: str = ""  # of the paper, if it is not only that of the file
     published: str | None = None  # the paper's number, if any
 
     def finding(
@@ -76,6 +78,25 @@ class OfSetups(Statement):
         if not enough(values):
             raise TooFewSetups(self.name)
         return values
+
+
+def strongest(numbers: np.ndarray, levels: pd.DataFrame) -> str | None:
+    """The factor with the strongest effect on a number, if it is significant; otherwise None.
+
+    The analysis of variance has a level of 5 % over all factors (Bonferroni). The design is
+    balanced, so the other factors average out in the analysis of one factor.
+
+    Args:
+        numbers: (setup,) on the scale on which they are averaged.
+        levels: (setup, factor) the levels.
+    """
+    chances = {}
+    for factor, level in levels.items():
+        groups = [numbers[level == name] for name in level.unique()]
+        several = [group for group in groups if len(group) > 1]
+        chances[factor] = f_oneway(*several).pvalue if len(several) > 1 else 1.0
+    least = min(chances, key=lambda factor: chances[factor])
+    return str(least) if chances[least] * len(chances) < 1 - LEVEL else None
 
 
 class TooFewSetups(NotMeasured):

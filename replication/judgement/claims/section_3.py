@@ -78,7 +78,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     return [
         Measured(
             "identity",
-            "3",
             "For the intact robot, this mapping is the identity.",
             "The intact robot needs no correction, and learns none.",
             f"The improved system's errors on the intact robot stay below {LARGEST} cm and"
@@ -88,7 +87,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "single-valued",
-            "3",
             "avoids the problem of the original application of having a multivalued inverse"
             " function, because the controller always chooses the same joint angles for a fixed"
             " command",
@@ -101,7 +99,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "grid",
-            "3",
             "we can directly place the centers of the cells in a regular grid covering it, in"
             " order to minimize the quantization error. These centers do not need to move",
             "A regular grid of cells covers the workspace best.",
@@ -113,7 +110,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "ritter-slow",
-            "3",
             "was not as quick as expected, even if the neighborhood widths were tuned in order to"
             " maximize learning speed",
             "Ritter's map is slow, even with its widths tuned.",

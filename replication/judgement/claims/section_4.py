@@ -72,8 +72,8 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
     def remaining(variant: str, error: Error = "both") -> Remaining:
         return Remaining(variant, late, error)
 
-    def for_(error: Error, variant: str) -> Remaining:
-        return remaining(variant.format(error), error)
+    def small(net: str, error: Error) -> Remaining:
+        return remaining(f"small_{net.removesuffix('s')}_for_{error}", error)
 
     orders = {
         "position": (
@@ -88,14 +88,10 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
     cells = {
         "position": (
             "the position network needs less units in the supernet",
-            "small_supernet_for_{}",
-            "small_subnet_for_{}",
             ("supernet", "subnets"),
         ),
         "orientation": (
             "the orientation network saves neurons at the subnet level",
-            "small_subnet_for_{}",
-            "small_supernet_for_{}",
             ("subnets", "supernet"),
         ),
     }
@@ -103,7 +99,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
     found: list[OfSetups | Measured] = [
         Measured(
             "weak-coupling",
-            "4",
             "changes in position coordinates influence very slowly the orientation commands, and"
             " the same can be said about orientation coordinates with respect to position commands",
             "Positions hardly influence orientation commands, nor the reverse.",
@@ -114,7 +109,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "weak-coupling-reason",
-            "4",
             "Due to the characteristics of the workspace used (far from singularities and of small"
             " size relative to that of the robot)",
             "This decoupling arises because the workspace is small and far from singularities.",
@@ -126,7 +120,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "large-neighbourhoods",
-            "4",
             "too large neighborhoods in the position coordinates space are counterproductive to"
             " learn position commands",
             "Too wide neighbourhoods of positions hurt position commands.",
@@ -142,7 +135,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "no-good-solution",
-            "4",
             "there is no good solution to these contradictory interests within Ritter et al.'s"
             " framework",
             "One map cannot serve positions and orientations at once.",
@@ -160,7 +152,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "separate-maps",
-            "4",
             "This modification leads to a significant increase in learning speed.",
             "Two maps, one for positions and one for orientations, learn faster than one.",
             f"After {late:,} iterations, Ritter's two maps leave a smaller error than his one map"
@@ -185,7 +176,6 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
         found.append(
             OfSetups(
                 f"widths-{error}",
-                "4",
                 words,
                 f"The {error} map needs {widths}.",
                 f"After {late:,} iterations, the {error} error of two maps is smaller if the"
@@ -195,25 +185,25 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
                 name=f"{error} error in the paper's order / in reverse",
                 system=TWO,
                 estimand=Contrast(
-                    for_(error, "two_maps_for_{}_paper"), for_(error, "two_maps_for_{}_reverse")
+                    remaining(f"two_maps_for_{error}_paper", error),
+                    remaining(f"two_maps_for_{error}_reverse", error),
                 ),
             )
         )
     for error in errors:
-        words, fewer, other, (net, other_net) = cells[error]
+        words, (net, other) = cells[error]
         found.append(
             OfSetups(
                 f"cells-{error}",
-                "4",
                 words,
                 f"The {error} map needs fewer cells in the {net}.",
                 f"After {late:,} iterations, the {error} error of two maps with 2 x 2 x 2 cells in"
-                f" the {net} is below that with 2 x 2 x 2 cells in the {other_net}.",
+                f" the {net} is below that with 2 x 2 x 2 cells in the {other}.",
                 "A map that needs fewer cells in a net loses less if it has fewer. Above 1, the"
                 " sentence holds with supernet and subnets exchanged.",
-                name=f"{error} error with fewer cells in the {net} / in the {other_net}",
+                name=f"{error} error with fewer cells in the {net} / in the {other}",
                 system=TWO,
-                estimand=Contrast(for_(error, fewer), for_(error, other)),
+                estimand=Contrast(small(net, error), small(other, error)),
             )
         )
     return found

@@ -1,6 +1,7 @@
 """Section 5: what to propagate to neighbouring cells."""
 
 from collections.abc import Callable
+from functools import partial
 
 import pandas as pd
 
@@ -63,10 +64,7 @@ def nearer(kind: str) -> Callable[[Statement, Evidence], Finding]:
 
 def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
-
-    def remaining(variant: str) -> Remaining:
-        return Remaining(variant, iterations)
-
+    remaining = partial(Remaining, iterations=iterations)
     both = Contrast(remaining(IMPROVED), remaining("improved_values"))
     criterion = (
         "In at least 95 % of the balls in which the condition holds, the new update is better, over"
@@ -80,7 +78,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     return [
         OfSetups(
             "theta-increments",
-            "5",
             "the information propagated to neighboring units can be modified to improve their"
             " cooperation",
             "Cells should share changes of their commands, not commands.",
@@ -98,7 +95,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "theta-reason",
-            "5",
             "this kind of cooperation works better than Ritter et al.'s when the new function is"
             " more similar to the original one than to a constant function",
             "Changes are better if the new mapping is nearer to the old one than to a constant.",
@@ -108,7 +104,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "jacobian-increments",
-            "5",
             "in all the relevant aspects for us, the problem is the same we encountered with the"
             " theta_rs update",
             "Cells should share changes of their Jacobians, not Jacobians.",
@@ -126,7 +121,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "jacobian-reason",
-            "5",
             "The new update version is better than the classical one when the Jacobian function of"
             " f' is more similar to df/dw than to a constant matrix.",
             "The same condition decides for Jacobians.",
@@ -136,7 +130,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "not-drastic",
-            "5",
             "in the usual case in which the kinematics change is not drastic",
             "Sharing changes helps less after a drastic change of the kinematics.",
             "The error with both increments over that without them is larger with encoder shifts"
@@ -151,12 +144,12 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "cooperation",
-            "abstract, 8",
             "the learning is much faster due to the improved cooperation among the learning units",
             "The improved system is better because its cells share changes.",
             f"After {iterations} iterations the error with increments of theta and of Jacobians is"
             " below that with values of both.",
             "Both increments are what improves the cooperation.",
+            section="abstract, 8",
             name="error with both increments / with values",
             system=SYSTEM,
             estimand=both,

@@ -1,5 +1,7 @@
 """Section 6: how widths should fall."""
 
+from functools import partial
+
 import numpy as np
 
 from replication.config.switches import IMPROVED, RITTER
@@ -61,15 +63,11 @@ def expected_learning(statement: Statement, evidence: Evidence) -> Finding:
 
 def claims(iterations: int) -> list[OfSetups | Measured]:
     """The claims of the section, in its order; `iterations` are those of Figure 1."""
-
-    def remaining(variant: str) -> Remaining:
-        return Remaining(variant, iterations)
-
+    remaining = partial(Remaining, iterations=iterations)
     name = "error with equal visits / with exponential widths"
     return [
         Measured(
             "coarse-widths",
-            "6",
             "When the neighborhood width is large [...] Few iterations are then required to learn"
             " the mapping in all the input space at a coarse level of resolution. Instead, when"
             " the neighborhoods are small [...] many more iterations are required",
@@ -83,7 +81,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "expected-learning",
-            "6",
             "The second equality results from assuming Gaussian neighborhoods and a uniform p(w),"
             " and it is valid for w_r's not too close to the border",
             "Equation (10) predicts how much a cell learns in an iteration.",
@@ -94,7 +91,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "schedule",
-            "6",
             "The neighborhood scheduling proposed by Ritter et al. does not take into account this"
             " fact. We will derive now a neighborhood scheduling",
             "Widths should fall so that a cell is visited equally often at each of them.",

@@ -113,7 +113,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     return [
         Measured(
             "rigid",
-            "7",
             "The results were in complete agreement with the simulation results for the same"
             " situation",
             "A real robot, moved and turned as a whole, agreed with the simulation.",
@@ -123,7 +122,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "initial-error",
-            "7",
             "the initial mean average position and orientation error, when executing (1), was 8.3"
             " cm and 4.7 degrees, respectively",
             "This damage gives initial errors of 8.3 cm and 4.7 degrees.",
@@ -137,7 +135,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "figure-1",
-            "7",
             "Figure 1 shows the results of performing 200 iterations with our learning system",
             "200 iterations make both errors small.",
             f"After {iterations} iterations less than a tenth of both errors of the arm remains.",
@@ -149,19 +146,18 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         Measured(
             "speed-up",
-            "1, 7",
             "speeding up learning by a factor of 70 (near to 2 orders of magnitude)",
             "Ritter's map needs about 70 times as many iterations for the same errors.",
             f"{PUBLISHED} lies in the interval in which one more study on one more robot would"
             " find its factor, and the ends of this interval differ by a factor of 4 at most.",
             "A published number is one study on one robot. Ritter's map has as many cells as both"
             " new maps, as in the paper; both are tuned for each number of iterations.",
+            section="1, 7",
             published=f"a factor of {PUBLISHED}",
             judge_=speed_up(iterations),
         ),
         OfSetups(
             "long",
-            "7",
             "The original Ritter et al.'s algorithm with optimized parameters required more than"
             " 10,000 iterations to get the same combination of orientation and position errors",
             "Ritter's map needs more than 10,000 iterations for these errors.",
@@ -175,7 +171,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "rough-search",
-            "7",
             "The parameters were selected after a very rough search",
             "A very rough search finds the parameters.",
             "With the best of 16 settings, less than a tenth of both errors remains after"

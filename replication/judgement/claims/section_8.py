@@ -23,7 +23,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
     return [
         Measured(
             "controller-kept",
-            "8",
             "the system can work without substituting the original controller in commercial robots",
             "The robot's controller stays as it is.",
             "Fed with a table of commands and measured poses instead of a robot, the learner"
@@ -33,7 +32,6 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
         ),
         OfSetups(
             "local-units",
-            "8",
             "other neural network algorithms based on local units can also benefit from these"
             " improvements",
             "Another network of local units gains by sharing changes, too.",

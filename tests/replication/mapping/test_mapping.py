@@ -18,9 +18,9 @@ from replication.mapping import (
     propagation_errors,
     true_commands,
 )
-from replication.mapping.coupling import coupling
 from replication.mapping.quantisation import quantisation
 from replication.mapping.solutions import solutions
+from replication.mapping.true_mapping import coupling
 from replication.mapping.visits import visits
 
 
@@ -139,7 +139,7 @@ def test_a_turn_beyond_60_degrees_is_nearer_to_a_constant():
 
 
 def test_visits_agree_with_the_formula_in_the_middle_and_halve_on_a_face():
-    table = visits(2, [0.2], [0.0, 1.0], samples=400_000)
+    table = visits(2).query("width == 0.2 and distance in (0, 1)")
     assert table["ratio"].tolist() == pytest.approx([0.5, 1.0], abs=4 * table["error"].max())
 
 

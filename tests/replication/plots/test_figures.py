@@ -160,6 +160,6 @@ def test_every_learner_looks_like_itself_and_unlike_the_others(small):
     shown = styles_of([*small.benchmark.papers, *small.benchmark.learners])
     assert shown == STYLES
     assert len({(style.color, style.marker) for style in shown.values()}) == len(shown)
-    trainings = styles_of_trainings([(RITTER, 200), (RITTER, 10_000), ("mine", 7)])
+    trainings = styles_of_trainings({RITTER: [200, 10_000], "mine": [7]})
     assert trainings[RITTER, 10_000].color == STYLES[RITTER].color
     assert len({style.color for style in trainings.values()}) == 3
