@@ -7,6 +7,7 @@ DESIGN = f"{CAMPAIGN}/design.csv"
 OUTCOMES = f"{CAMPAIGN}/outcomes.csv"  # all outcomes of the campaign
 FEWEST = 20  # setups: with fewer there is no verdict (docs/registration.md)
 UNTRAINED = f"{CAMPAIGN}/untrained.csv"  # measurements in every setup without a learner
+HALFWAY = f"{CAMPAIGN}/halfway.csv"  # Ritter's map between its last two lengths
 DEVIATIONS = "workflow/deviations.yaml"  # changes after a result had been seen
 
 

@@ -10,7 +10,7 @@ import pandas as pd
 
 from recalib.errors import RecalibError
 from replication.config.campaign import Factors
-from replication.config.shipped import CAMPAIGN, SHIPPED, root_of
+from replication.config.shipped import CAMPAIGN, DESIGN, OUTCOMES, SHIPPED, root_of
 from replication.config.study import Study
 from replication.judgement.findings import Finding, read_findings
 from replication.training.measured import ERRORS
@@ -83,11 +83,11 @@ class Evidence:
 
     def outcomes(self) -> pd.DataFrame:
         """The campaign's table. Raises NotMeasured."""
-        return self.table(f"{CAMPAIGN}/outcomes.csv")
+        return self.table(OUTCOMES)
 
     def levels(self) -> pd.DataFrame:
         """The levels of all factors in each setup, by the setup's number."""
-        design = self.table(f"{CAMPAIGN}/design.csv").set_index("setup")
+        design = self.table(DESIGN).set_index("setup")
         return design[list(Factors.model_fields)]
 
     def mapping(self, name: str) -> pd.DataFrame:

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from replication.campaign.variants import DOUBLE, variants
-from replication.config.shipped import CAMPAIGN, root_of
+from replication.config.shipped import HALFWAY, root_of
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.judgement.checks import KEYS as TRAINING
@@ -172,7 +172,7 @@ class Contents:
     def halfway(self) -> Number:
         """Of how many times as many iterations Ritter's map needs, with `halfway` in each setup."""
         goal = Remaining(IMPROVED, self.study.experiments.iterations)
-        more = self.evidence.table(f"{CAMPAIGN}/halfway.csv")
+        more = self.evidence.table(HALFWAY)
         outcomes = pd.concat([self.evidence.outcomes(), more])
         found = Crossing(DOUBLE, goal).values(outcomes).model()
         return number("", "", found.mean, found.another)

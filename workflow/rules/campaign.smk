@@ -5,7 +5,7 @@ from replication.campaign.variants import lengths, needed, variants
 from replication.config.shipped import DESIGN, OUTCOMES
 
 MEASURED = f"{RESULTS}/campaign/outcomes/{{setup}}/{{replicate}}.csv"
-HALFWAY = f"{RESULTS}/campaign/halfway/{{setup}}.{{replicate}}.csv"
+HALFWAY_IN_SETUP = f"{RESULTS}/campaign/halfway/{{setup}}.{{replicate}}.csv"
 PIECE = f"{RESULTS}/campaign/pieces/{{setup}}/{{replicate}}/{{variant}}.csv"
 
 
@@ -109,7 +109,7 @@ rule halfway_in_setup:
         design=DESIGN,
         outcomes=OUTCOMES,
     output:
-        temp(HALFWAY),
+        temp(HALFWAY_IN_SETUP),
     log:
         f"{RESULTS}/logs/halfway/{{setup}}.{{replicate}}.log",
     resources:
@@ -128,7 +128,7 @@ rule halfway_in_setup:
 rule halfway:
     input:
         tables=[
-            HALFWAY.format(setup=setup, replicate=number)
+            HALFWAY_IN_SETUP.format(setup=setup, replicate=number)
             for setup in range(1, STUDY.campaign.setups)
             for number in range(STUDY.campaign.replicates)
             if not number or setup < STUDY.campaign.replicated

@@ -1,6 +1,6 @@
 """A table of final errors from all histories, its check, and a finding for each claim."""
 
-from replication.config.shipped import DESIGN, OUTCOMES, UNTRAINED
+from replication.config.shipped import DESIGN, HALFWAY, OUTCOMES, UNTRAINED
 
 TRAININGS = {
     "resolved": [place.scenario_file(RESULTS) for place in PLACES],
@@ -12,7 +12,7 @@ TRAININGS = {
 }
 EVIDENCE = [f"{RESULTS}/summary.csv", *TRAININGS["resolved"], *TRAININGS["histories"]]
 EVIDENCE += TABLES * STUDY.experiments.evidence
-EVIDENCE += [DESIGN, OUTCOMES, UNTRAINED] * IS_SHIPPED
+EVIDENCE += [DESIGN, OUTCOMES, UNTRAINED, HALFWAY] * IS_SHIPPED
 
 
 rule summary:

@@ -7,8 +7,7 @@ import pandas as pd
 import pytest
 
 from replication.campaign import DOUBLE, TWO_MAPS, Replicate, lengths
-from replication.campaign.drawing import draw
-from replication.campaign.factors import rows
+from replication.campaign.drawing import draw, rows
 from replication.campaign.measuring import measure_variant
 from replication.campaign.setups import read_design
 from replication.campaign.ship import ship
