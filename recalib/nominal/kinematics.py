@@ -89,6 +89,11 @@ class Arm:
         return self._coupling or identity
 
     @property
+    def end(self) -> pin.Frame:
+        """The tool's frame, placed in the last joint's frame. Changing it changes the arm."""
+        return self.model.frames[self._frame]
+
+    @property
     def joints(self) -> tuple[str, ...]:
         """Names of the joints, from the base to the tool."""
         return tuple(self.model.names)[1:]
@@ -154,9 +159,9 @@ class Arm:
         """Positions (n, joint + 2, 3) [m] of base, joints and tool at angles (n, joint) [rad]."""
         postures, shape = self._postures(angles)
         points = np.zeros((len(postures), self.model.njoints + 1, 3))
-        points[:, -1] = self.forward(postures)[:, :3, 3]
         for skeleton, q in zip(points, postures, strict=True):
             pin.forwardKinematics(self.model, self._data, q)
+            skeleton[-1] = pin.updateFramePlacement(self.model, self._data, self._frame).translation
             skeleton[1:-1] = [placement.translation for placement in list(self._data.oMi)[1:]]
         return points.reshape(*shape, *points.shape[1:])
 
