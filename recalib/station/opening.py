@@ -11,11 +11,11 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -47,8 +47,7 @@ def open_station(text: str) -> Station:
             raise StationFailed(f"{text} has no NAME of a class; expected: FILE.py:NAME")
         return ProgramStation(command)
     try:
-        make: Callable[[], Station] = getattr(_module(named["home"]), named["name"])
-        return make()
+        return getattr(_module(named["home"]), named["name"])()
     except StationFailed:
         raise
     except Exception as error:  # the user's code may raise anything
@@ -119,10 +118,10 @@ class ProgramStation:
         self._ask("move", angles=angles.tolist(), speed=speed)
 
     def angles(self) -> np.ndarray:
-        return cast(np.ndarray, self._ask("angles", "angles")["angles"])  # checked by the caller
+        return self._ask("angles", "angles")["angles"]  # checked by the caller
 
     def measure(self) -> Mapping[str, float | str] | None:
-        return cast(Mapping[str, float | str] | None, self._ask("measure", "row")["row"])
+        return self._ask("measure", "row")["row"]
 
     def stop(self) -> None:
         with suppress(OSError, ValueError):  # the program has ended, or its input is closed
