@@ -19,15 +19,7 @@ from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
 from recalib.laboratory.hand_eye.pose_table import convention_of, read_poses
 from recalib.laboratory.live.allowed import Box
-from recalib.laboratory.options import (
-    BOARD,
-    BY_POSES,
-    CONE,
-    DONE,
-    IN_HAND,
-    NO_BETTER,
-    OF_ARMS,
-)
+from recalib.laboratory.options import BOARD, BY_POSES, CONE, DONE, IN_HAND, NO_BETTER, OF_ARMS
 from recalib.laboratory.propose import propose, useful
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report.folder import files_of
