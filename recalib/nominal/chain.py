@@ -39,7 +39,10 @@ class Chain(kernels.Arms):
             # M(q + offset) = R Mz(offset) Mz(q) inv(R); R rotates z to the joint's axis
             along_z = pin.SE3(pin.Quaternion.FromTwoVectors(Z, arm.axes[joint]), np.zeros(3))
             offset = 0.0 if offsets is None else offsets[joint]
-            placements.append(before * placement * along_z * _motion(offset, arm.slides[joint]))
+            moved = pin.SE3(pin.AngleAxis(offset, Z).matrix(), np.zeros(3))
+            if arm.slides[joint]:
+                moved = pin.SE3(np.eye(3), offset * Z)
+            placements.append(before * placement * along_z * moved)
             before = along_z.inverse()
         placements.append(before * arm.end.placement)
         matrices = [placement.homogeneous[:3] for placement in placements]
@@ -95,10 +98,3 @@ class Chain(kernels.Arms):
             found, valid = f"of shape {angles.shape}", f"an array {expected}"
             raise InvalidSetting("joint angles", found, valid)
         return angles
-
-
-def _motion(angle: float, slides: bool) -> pin.SE3:
-    """A joint's motion: a rotation about z [rad] or, if it slides, a translation along z [m]."""
-    if slides:
-        return pin.SE3(np.eye(3), angle * Z)
-    return pin.SE3(pin.AngleAxis(angle, Z).matrix(), np.zeros(3))

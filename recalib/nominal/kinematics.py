@@ -54,11 +54,7 @@ class Coupling:
 
     def reported(self, joints: np.ndarray) -> np.ndarray:
         """Reported coordinates (n, columns), from those of all joints (n, joints)."""
-        return (joints - self.shifts) @ self._inverse.T
-
-    @cached_property
-    def _inverse(self) -> np.ndarray:
-        return np.linalg.pinv(self.gains)
+        return (joints - self.shifts) @ np.linalg.pinv(self.gains).T
 
 
 class Arm:

@@ -43,7 +43,9 @@ def open_station(text: str) -> Station:
             raise StationFailed(f"{text!r} is not a command line: {error}") from None
         if not command:
             raise StationFailed("STATION is empty; expected: FILE.py:NAME, or a command line")
-        if len(command) == 1 and _lacks_a_name(command[0]):
+        word, *others = command
+        is_file = word.endswith(".py") and shutil.which(word) is None  # and not a command
+        if not others and (is_file or word.endswith(":")):
             raise StationFailed(f"{text} has no NAME of a class; expected: FILE.py:NAME")
         return ProgramStation(command)
     try:
@@ -52,11 +54,6 @@ def open_station(text: str) -> Station:
         raise
     except Exception as error:  # the user's code may raise anything
         raise StationFailed(f"{text} cannot be made: {type(error).__name__}: {error}") from error
-
-
-def _lacks_a_name(text: str) -> bool:
-    """Whether a text is a Python file that is no command, or a module with a bare colon."""
-    return text.endswith(":") or (text.endswith(".py") and shutil.which(text) is None)
 
 
 def _module(home: str) -> ModuleType:
