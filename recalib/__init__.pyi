@@ -53,11 +53,11 @@ from .learners.geometric import HybridLearner as HybridLearner
 from .learners.hierarchical import HierarchicalLearner as HierarchicalLearner
 from .learners.learned import load as load
 from .learners.learned import save as save
-from .learners.observer import UncorrectedLearner as UncorrectedLearner
 from .learners.radial import RadialLearner as RadialLearner
 from .learners.rules import IMPROVED as IMPROVED
 from .learners.rules import Rules as Rules
 from .learners.schedules import Schedule as Schedule
+from .learners.uncorrected import UncorrectedLearner as UncorrectedLearner
 from .loop.external import ExternalRobot as ExternalRobot
 from .loop.interfaces import Commandable as Commandable
 from .loop.interfaces import ForwardKinematics as ForwardKinematics

@@ -1,7 +1,4 @@
-"""Base classes of learners that make one move an iteration and learn from every measured move.
-
-The simplest of them learns nothing: it is the baseline for every learner.
-"""
+"""Base classes of learners that make one move an iteration and learn from every measured move."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
@@ -50,17 +47,6 @@ class Observer(ABC):
         commands = self.command(ending("desired", desired, 6)[:, None])
         outcome = execute(commands)
         self.observe(commands, outcome.achieved, outcome.executed)
-
-
-class UncorrectedLearner(Observer):
-    """A baseline that commands the desired poses and learns nothing."""
-
-    def command(self, desired: np.ndarray) -> np.ndarray:
-        """The desired poses (run, pose, 6) themselves."""
-        return desired
-
-    def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        pass
 
 
 def is_due(before: int, moves: int) -> bool:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from recalib.learners.kinds import KINDS, class_of
-from recalib.learners.observer import UncorrectedLearner
+from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.loop.interfaces import Learner
 from recalib.nominal.robots import Robot
 from replication.config.switches import RITTER

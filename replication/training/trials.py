@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.learners.observer import UncorrectedLearner
 from recalib.learners.radial import RadialLearner
+from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.loop.interfaces import Commandable
 from recalib.loop.training import measure
 from replication.training.poses import ResultPoses, SearchPoses, train_on
