@@ -56,12 +56,20 @@ def ending(name: str, given: ArrayLike, *last: int) -> np.ndarray:
     return array
 
 
+def are_poses(matrices: np.ndarray, skew: float, last_row: float = 0.0) -> np.ndarray:
+    """Whether each of the matrices (..., 4, 4) is a pose: not transposed, mirrored or scaled.
+
+    Arguments are the tolerances of R R' = 1, and of the last row.
+    """
+    turns = matrices[..., :3, :3]
+    off = np.abs(turns @ turns.swapaxes(-2, -1) - np.eye(3)).max(axis=(-2, -1))
+    ends = np.abs(matrices[..., 3, :] - [0, 0, 0, 1]).max(axis=-1)
+    return (ends <= last_row) & (off < skew) & (np.linalg.det(turns) > 0)
+
+
 def check_rotations(name: str, poses: np.ndarray) -> None:
     """Raise InvalidSetting unless all matrices (..., 4, 4) are poses."""
-    turns, rows = poses[..., :3, :3], poses[..., 3, :]
-    skew = np.abs(turns @ turns.swapaxes(-1, -2) - np.eye(3)).max(axis=(-1, -2))
-    good = (skew < SKEW) & (np.linalg.det(turns) > 0)
-    if not (good & (np.abs(rows - [0, 0, 0, 1]).max(axis=-1) < SKEW)).all():
+    if not are_poses(poses, SKEW, SKEW).all():
         valid = "poses: a rotation (3, 3), a position (3,) in m, and the last row 0, 0, 0, 1"
         raise InvalidSetting(name, "matrices that are not poses", valid)
 

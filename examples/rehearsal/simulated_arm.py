@@ -18,7 +18,7 @@ import numpy as np
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
 from recalib.errors import UnsuitableRobot
-from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.kinematics import Arm
 from recalib.station.interface import StationFailed, cells_of
 
 if sys.platform == "linux" and find_library("EGL"):  # to draw without a screen
@@ -185,7 +185,7 @@ def _spec(arm: Arm, gears: Gears) -> mujoco.MjSpec:
     stiffness, friction = (
         np.broadcast_to(given, count) for given in (gears.stiffness, gears.friction)
     )
-    tool = model.frames[tool_frame(model, arm.tool)].placement
+    tool = arm.end.placement
     ends = [*list(model.jointPlacements)[2:], tool]
     for index, name in enumerate(arm.joints):
         body = body.add_body(name=name, **placed(model.jointPlacements[index + 1].homogeneous))

@@ -10,7 +10,6 @@ import numpy as np
 from simulated_arm import Gears, PhysicsStation, placed
 
 from recalib.damaged.damage import DamagedArm
-from recalib.nominal.kinematics import tool_frame
 from recalib.vision.boards import Board
 from recalib.vision.detection import Unusable, find_corners
 from recalib.vision.lenses import Lens
@@ -73,7 +72,7 @@ class PicturedStation(PhysicsStation):
         texture.data = np.repeat(picture[..., None], 3, axis=-1).tobytes()
         spec.add_material(name="board").textures[role] = "board"
         arm, sides = self._damaged.arm, self._board.size / 2
-        tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
+        tool = arm.end.placement.homogeneous
         for depth, size, color in (
             (THIN, sides, {"material": "board"}),
             (2 * THIN, sides + MARGIN, {"rgba": [WHITE / 255] * 3 + [1]}),

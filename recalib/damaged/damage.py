@@ -160,7 +160,7 @@ def end_of(arm: Arm, link: str, damaged: DamagedArm) -> pin.SE3:
     Raises UnknownName.
     """
     check_name("link", link, arm.links)
-    return link_end(damaged.arm.model, damaged.arm.tool, arm.links[link])
+    return link_end(damaged.arm, arm.links[link])
 
 
 def joint_index(arm: Arm, joint: str) -> int:

@@ -56,7 +56,10 @@ class Plant:
             check_kind("generator", one, np.random.Generator)
         if disturbances is not None and not generators:
             raise InvalidSetting("generators", "none", "one for each disturbed run")
-        self._chain = _chain(self._arms)
+        rigid = (arm for arm in self._arms if isinstance(arm, DamagedArm) and not arm.deflections)
+        chains = [arm.chain for arm in rigid]
+        # side by side; None unless geometry alone determines the poses of all arms
+        self._chain = Chain.side_by_side(chains) if len(chains) == len(self._arms) else None
         self._home = self._forward(np.tile(controller.robot.home, (len(self._arms), 1, 1)))
         self._home_coordinates = self.workspace.to_coordinates(self._home[:, 0])
         self.moves = 0
@@ -128,9 +131,3 @@ class Plant:
             return np.stack([arm.forward(joints) for arm, joints in pairs])
         poses = self._arms[0].forward(angles.reshape(-1, angles.shape[-1]))
         return poses.reshape(*angles.shape[:-1], 4, 4)
-
-
-def _chain(arms: Sequence[ForwardKinematics]) -> Chain | None:
-    """The arms side by side; None unless geometry alone determines the poses of all of them."""
-    chains = [arm.chain for arm in arms if isinstance(arm, DamagedArm) and not arm.deflections]
-    return Chain.side_by_side(chains) if len(chains) == len(arms) else None

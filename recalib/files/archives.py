@@ -73,9 +73,8 @@ def opened(
             arrays = {name: file[name] for name in file.files}
         header = json.loads(str(arrays.pop("header")[()]))
         found, digest = (header["format"], header["version"]), header.pop("sha256", None)
-    if found != kind:
-        raise InvalidFile(path, f"its format is {found}; expected: {kind}")
-    with refused(path, writer):
+        if found != kind:
+            raise InvalidFile(path, f"its format is {found}; expected: {kind}")
         if digest != _digest(header, arrays):
             raise ValueError
     if any(array.dtype.kind == "f" and not np.isfinite(array).all() for array in arrays.values()):

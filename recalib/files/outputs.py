@@ -9,6 +9,7 @@ import tempfile
 import tomllib
 import zipfile
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 
 import yaml
@@ -126,12 +127,9 @@ def _read_xml(content: bytes) -> None:
     read_xml(content, Path("it"))
 
 
-def _read_ending(ending: bytes) -> Callable[[bytes], None]:
-    def read(content: bytes) -> None:
-        if ending not in content[-64:]:
-            raise ValueError("its end is missing")
-
-    return read
+def _read_ending(ending: bytes, content: bytes) -> None:
+    if ending not in content[-64:]:
+        raise ValueError("its end is missing")
 
 
 # A new format needs a line here; a file of any other format must be text in UTF-8.
@@ -139,8 +137,8 @@ READERS: Mapping[str, Callable[[bytes], object]] = {
     ".csv": _read_csv,
     ".json": json.loads,
     ".npz": _read_npz,
-    ".pdf": _read_ending(b"%%EOF"),
-    ".rrd": _read_ending(b"RRF2FOOT"),
+    ".pdf": partial(_read_ending, b"%%EOF"),
+    ".rrd": partial(_read_ending, b"RRF2FOOT"),
     ".svg": _read_xml,
     ".toml": lambda content: tomllib.loads(content.decode("utf-8")),
     ".urdf": _read_xml,

@@ -151,10 +151,7 @@ def _across(measured: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def _by_number(blocks: np.ndarray, numbers: np.ndarray) -> np.ndarray:
-    """Rows (n, 3, 3 * numbers) of a matrix with blocks (n, 3, 3) in the columns of their numbers.
-
-    All other columns are zero.
-    """
+    """Rows (n, 3, 3 * numbers): blocks (n, 3, 3) in the columns of their numbers, else zeros."""
     placed = np.zeros((len(blocks), 3, np.max(numbers) + 1, 3))
     placed[np.arange(len(blocks)), :, numbers] = blocks
     return placed.reshape(len(blocks), 3, -1)

@@ -147,12 +147,9 @@ def identify(
 def _posterior(
     precision: np.ndarray, gradient: np.ndarray
 ) -> tuple[np.ndarray, float, np.ndarray, float]:
-    """The step of the parameters (P,) for a gradient (P,), and their posterior covariance.
+    """The step (P,), its norm in posterior deviations, the covariance (P, P), the log volume.
 
     The precision (P, P) is overwritten: to allocate large matrices takes as long as to fill them.
-
-    Returns the step, its norm in posterior deviations, the covariance (P, P), and the logarithm of
-    the posterior's volume.
     """
     factor = scipy.linalg.cholesky(precision.T, overwrite_a=True)
     step = scipy.linalg.cho_solve((factor, False), gradient)
@@ -191,11 +188,7 @@ def _add_known(
     precision: np.ndarray,
     gradient: np.ndarray,
 ) -> None:
-    """Add information from other sources than the rows to the normal equations (P, P) and (P,).
-
-    The sources are distances between sockets, the pictures' information on their optics, and stated
-    poses of frames.
-    """
+    """Add the information of distances, optics and stated frames to the normal equations."""
     centres = model.sockets(parameters * model.deviations)
     for one, other, length, deviation in observations.distances:
         between = centres[one] - centres[other]

@@ -40,8 +40,8 @@ def without_shift(found: Sequence[Fault], mistake: str | None) -> list[Fault]:
 
 
 @dataclass(frozen=True)
-class Results:
-    """A calibrated arm."""
+class Calibrated:
+    """A calibrated arm: `summary()`, `predict(joints)`, `correct(poses)`."""
 
     urdf: UrdfFile | None  # of the nominal arm; None if there is none
     data: DataSet
@@ -51,6 +51,12 @@ class Results:
     scales: Mapping[str, Scale]
     mistake: str | None  # the likely mistake in the rows, in words; see `mistake_in`
     offset: str | None  # between the controller's positions and the URDF's kinematics, in words
+
+    def summary(self) -> str:
+        """The printed summary: errors before and after, and the identified arm."""
+        from recalib.laboratory.report.summary import summary  # it imports this class
+
+        return summary(self)
 
     def predict(self, joints: ArrayLike, target: str | None = None) -> np.ndarray:
         """Predicted measurements: poses (n, 4, 4) [m] of a target in the instrument's frame.

@@ -6,7 +6,6 @@ that the nominal kinematics have at these joint angles.
 
 import math
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import Any, Self
 
 import numpy as np
@@ -23,6 +22,7 @@ from recalib.nominal.newton import solve_groups
 from recalib.nominal.robots import Robot
 
 STEPS = 10
+ROUNDS = 4  # for a redundant arm; each reduces the error to some hundredths
 TOLERANCE = 1e-9  # m, rad
 
 
@@ -51,10 +51,14 @@ class GeometricLearner(Refitting):
         commands = desired.copy()
         known = {run: model for run, model in enumerate(self.models) if model is not None}
         if known:
-            poses = self._controller.robot.workspace.to_poses(desired[[*known]])
-            commands[[*known]] = self._controller.commands_for(
-                desired[[*known]], partial(angles_for, [*known.values()], poses)
-            )
+            runs, models, robot = [*known], [*known.values()], self._controller.robot
+            poses = robot.workspace.to_poses(desired[runs])
+            # a redundant arm has many suitable angles; the controller's own answer selects some
+            for _ in range(ROUNDS if len(robot.joints) > 6 else 1):
+                angles = angles_for(models, poses, self._sent(commands[runs]))
+                reached = robot.arm.forward(angles.reshape(-1, angles.shape[-1]))
+                coordinates = robot.workspace.to_coordinates(reached)
+                commands[runs] = coordinates.reshape(len(runs), -1, 6)
         return commands
 
     def _sent(self, commands: np.ndarray) -> np.ndarray:

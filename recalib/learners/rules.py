@@ -12,13 +12,7 @@ import numpy as np
 from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_kind, check_name
 from recalib.learners.nets import CENTRES
-from recalib.learners.schedules import (
-    DIMENSIONS,
-    EXPONENTIAL,
-    RATES,
-    SPREADS,
-    equal_visits,
-)
+from recalib.learners.schedules import DIMENSIONS, EXPONENTIAL, RATES, SPREADS, equal_visits
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}

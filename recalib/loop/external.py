@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.arrays import array_of
+from recalib.arrays import are_poses, array_of
 from recalib.errors import BadMeasurement, InvalidSetting, check_kind
 from recalib.loop.interfaces import Outcome
 from recalib.nominal.poses import Workspace
@@ -75,18 +75,10 @@ class ExternalRobot:
             valid = "a matrix (4, 4)"
         elif not np.isfinite(measured).all():
             valid = "numbers"
-        elif not are_poses(measured):
+        elif not are_poses(measured, SKEW):
             valid = POSE
         elif np.linalg.norm((measured - self.workspace.centre)[:3, 3]) > FARTHEST:
             valid = f"m in the base frame, at most {FARTHEST:g} m from the workspace's centre"
         else:
             return measured
         raise BadMeasurement("the robot", np.ravel(measured), valid)
-
-
-def are_poses(matrices: np.ndarray) -> np.ndarray:
-    """Whether each of the matrices (..., 4, 4) is a pose: not transposed, mirrored or scaled."""
-    turns = matrices[..., :3, :3]
-    skew = np.abs(turns @ turns.swapaxes(-2, -1) - np.eye(3)).max(axis=(-2, -1))
-    ends = (matrices[..., 3, :] == [0, 0, 0, 1]).all(axis=-1)
-    return ends & (skew < SKEW) & (np.linalg.det(turns) > 0)

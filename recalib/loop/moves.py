@@ -59,11 +59,7 @@ def _first_wrong(
     last_achieved: np.ndarray,
     last_executed: np.ndarray,
 ) -> tuple[int, int, bool]:
-    """Run and move of the first bad pose, and whether the arm was stuck; -1 if all are good.
-
-    A pose is bad if it holds no numbers or is too far off, or if it equals the previous pose
-    although the commands differ: then the arm was stuck.
-    """
+    """Run and move of the first bad pose, and whether the arm was stuck; -1 if all are good."""
     for run in range(achieved.shape[0]):
         for move in range(achieved.shape[1]):
             allowed, size = 0.0, 0.0

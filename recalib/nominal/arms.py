@@ -74,10 +74,7 @@ def _coupling_of(
 ) -> Coupling | None:
     """The coupling of joints by `<mimic>`; None if no joint follows another.
 
-    `joints` are all joints of a URDF, by name. `names` and `limits` (2, joint) [rad, m], lower and
-    upper, describe the joints between base and tool.
-
-    Raises UnsuitableRobot if a joint follows itself, or a joint that cannot move.
+    `joints` are all joints of a URDF; `names` and `limits` (2, joint) [rad, m] are of the arm's.
     """
     if all(joints[name].find("mimic") is None for name in names):
         return None
@@ -126,10 +123,8 @@ def _check(arm: Arm, path: Path) -> None:
         if not lower <= upper:
             found = f"the limits of {joint} are {lower} to {upper} in {path}"
             raise UnsuitableRobot(f"{found}; expected: the lower one first")
-    tool = model.frames[tool_frame(model, arm.tool)].placement
-    for name, placement in zip(
-        [*arm.joints, arm.tool], [*model.jointPlacements[1:], tool], strict=True
-    ):
+    placements = [*model.jointPlacements[1:], arm.end.placement]
+    for name, placement in zip([*arm.joints, arm.tool], placements, strict=True):
         if not np.abs(placement.translation).max() < FARTHEST:
             far = f"{FARTHEST:g} m or more from what carries it"
             raise UnsuitableRobot(f"{name} is {far} in {path}; are its lengths in m?")

@@ -13,7 +13,7 @@ import pinocchio as pin
 from recalib.arrays import array_of, numbers
 from recalib.errors import InvalidSetting, check_kind
 from recalib.nominal import kernels
-from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.kinematics import Arm
 
 TOLERANCE = kernels.TOLERANCE
 Z = np.array([0.0, 0.0, 1.0])
@@ -34,15 +34,17 @@ class Chain(kernels.Arms):
         check_kind("arm", arm, Arm)
         if offsets is not None:
             offsets = array_of("offsets", offsets, (len(arm.joints),))
-        model, frame = arm.model, arm.model.frames[tool_frame(arm.model, arm.tool)]
-        joints, before, placements = [*model.jointPlacements][1:], pin.SE3.Identity(), []
+        joints, before, placements = [*arm.model.jointPlacements][1:], pin.SE3.Identity(), []
         for joint, placement in enumerate(joints):
             # M(q + offset) = R Mz(offset) Mz(q) inv(R); R rotates z to the joint's axis
             along_z = pin.SE3(pin.Quaternion.FromTwoVectors(Z, arm.axes[joint]), np.zeros(3))
             offset = 0.0 if offsets is None else offsets[joint]
-            placements.append(before * placement * along_z * _motion(offset, arm.slides[joint]))
+            moved = pin.SE3(pin.AngleAxis(offset, Z).matrix(), np.zeros(3))
+            if arm.slides[joint]:
+                moved = pin.SE3(np.eye(3), offset * Z)
+            placements.append(before * placement * along_z * moved)
             before = along_z.inverse()
-        placements.append(before * frame.placement)
+        placements.append(before * arm.end.placement)
         matrices = [placement.homogeneous[:3] for placement in placements]
         return cls(np.array([matrices]), arm.slides[None])
 
@@ -86,7 +88,7 @@ class Chain(kernels.Arms):
         if poses.shape != (len(start), 4, 4):
             valid = f"an array ({len(start)}, 4, 4)"
             raise InvalidSetting("poses", f"of shape {poses.shape}", valid)
-        return kernels.solve(tuple(self), poses, start.copy())
+        return kernels.solve(tuple(self), poses, start)
 
     def _checked(self, angles: np.ndarray, *arms: int) -> np.ndarray:
         """Angles (*arms, posture, n). Raises InvalidSetting otherwise: compiled loops cannot."""
@@ -96,10 +98,3 @@ class Chain(kernels.Arms):
             found, valid = f"of shape {angles.shape}", f"an array {expected}"
             raise InvalidSetting("joint angles", found, valid)
         return angles
-
-
-def _motion(angle: float, slides: bool) -> pin.SE3:
-    """A joint's motion: a rotation about z [rad] or, if it slides, a translation along z [m]."""
-    if slides:
-        return pin.SE3(np.eye(3), angle * Z)
-    return pin.SE3(pin.AngleAxis(angle, Z).matrix(), np.zeros(3))

@@ -11,7 +11,6 @@ that were found from home outwards by shortest steps, and Newton's method contin
 shortest steps. So a pose determines the joint angles, and a learner needs no more than poses.
 """
 
-from collections.abc import Callable
 from functools import cached_property
 from itertools import product
 from typing import Any, NamedTuple
@@ -29,7 +28,6 @@ KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # sizes of the boxes with knots, relative to the workspace
 DEGREE = 3  # of the start polynomial: its error is at most a degree, so three Newton steps suffice
 NOT_REACHED = "no joint angles reach it"
-ROUNDS = 4  # of iteration for a redundant arm; each reduces the error to some hundredths
 GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 typically has 12
 
 
@@ -109,24 +107,6 @@ class Controller:
         found = kernels.targets(*self.nominal, commands.reshape(-1, 6))
         axes = commands.shape[:-1]
         return Targets(*(part.reshape((*axes, *part.shape[1:])) for part in found))
-
-    def commands_for(
-        self, commands: np.ndarray, needed: Callable[[np.ndarray], np.ndarray]
-    ) -> np.ndarray:
-        """The commands (run, move, 6) for which the controller chooses the required joint angles.
-
-        A redundant arm has many suitable joint angles; the controller's own answer selects some.
-
-        Args:
-            commands: (run, move, 6) initial estimates.
-            needed: from joint angles (run, move, joint) [rad] to the required angles nearby.
-        """
-        workspace, arm = self.robot.workspace, self.robot.arm
-        for _ in range(ROUNDS if len(arm.joints) > 6 else 1):
-            angles = needed(self.targets(commands).angles)
-            poses = arm.forward(angles.reshape(-1, angles.shape[-1]))
-            commands = workspace.to_coordinates(poses).reshape(commands.shape)
-        return commands
 
     def inverse(self, poses: np.ndarray) -> np.ndarray:
         """Joint angles (n, joint) [rad] for the commanded poses (n, 4, 4).

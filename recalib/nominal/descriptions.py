@@ -46,33 +46,28 @@ def find_urdf(urdf: str | PathLike[str]) -> Path:
 
     Raises UnknownName, or InvalidFile if it is a path.
     """
-    package = package_of(urdf)
-    if package is None:
-        return Path(urdf)
-    if package == DATA:
-        return _packaged_urdfs()[fspath(urdf)]
-    try:
-        return Path(importlib.import_module(f"{FETCHED}.{fspath(urdf)}").URDF_PATH)
-    except (ImportError, AttributeError):
-        valid = f"a path, or a URDF of {FETCHED}, which has to be installed"
-        raise InvalidSetting("urdf", fspath(urdf), valid) from None
+    return _found(urdf)[0]
 
 
-def package_of(urdf: str | PathLike[str]) -> str | None:
-    """The package that contains a named URDF; None for a path. Raises like `find_urdf`."""
+def _found(urdf: str | PathLike[str]) -> tuple[Path, str | None]:
+    """The file of a URDF, and the package that contains it; None for a path."""
     path, name = path_of(urdf), fspath(urdf)
     if os.path.lexists(path) and not os.path.isdir(path):
-        return None
+        return path, None
     if name in _packaged_urdfs():
-        return DATA
+        return _packaged_urdfs()[name], DATA
     if name.endswith("_description") and name.isidentifier():
-        return FETCHED
+        try:
+            return Path(importlib.import_module(f"{FETCHED}.{name}").URDF_PATH), FETCHED
+        except (ImportError, AttributeError):
+            valid = f"a path, or a URDF of {FETCHED}, which has to be installed"
+            raise InvalidSetting("urdf", name, valid) from None
     if os.path.isdir(path):
         raise InvalidFile(urdf, "it is a folder; expected: a file")
     if path.name != name:
         raise InvalidFile(urdf, "there is no such file")
-    valid = {*_packaged_urdfs(), *(file.name for file in Path.cwd().glob("*.urdf"))}
-    raise UnknownName("file or URDF of example-robot-data", name, valid)
+    known = {*_packaged_urdfs(), *(file.name for file in Path.cwd().glob("*.urdf"))}
+    raise UnknownName("file or URDF of example-robot-data", name, known)
 
 
 @cache
@@ -98,7 +93,7 @@ class UrdfFile:
     @classmethod
     def read(cls, urdf: str | PathLike[str]) -> "UrdfFile":
         """Read a URDF by path or name. Raises like `find_urdf`, and InvalidFile."""
-        path, package = find_urdf(urdf), package_of(urdf)
+        path, package = _found(urdf)
         content = read_file(path, MOST)
         name = f"{path.name} of the package {package}" if package else fspath(urdf)
         return cls(path, content, f"{name} (sha256 {hashlib.sha256(content).hexdigest()[:12]})")

@@ -1,8 +1,7 @@
 """Compiled loops over poses and postures: coordinates, forward and inverse kinematics, moves.
 
 Each function handles all runs in one call, and computes every pose independently: its result does
-not depend on other poses in the call, to the last bit. All functions are in one file because
-Numba's cache checks only the file of the called function for changes, not the files of others.
+not depend on other poses in the call, to the last bit.
 
 A pose is three rows of a homogeneous matrix. Every joint turns about, or slides along, the z axis
 of its frame: `recalib.nominal.chain` rotates an arm's frames accordingly.
@@ -44,14 +43,6 @@ class Region(NamedTuple):
     centre: np.ndarray
     half_ranges: np.ndarray
     vectors: bool
-
-
-class Polynomial(NamedTuple):
-    """The start polynomial of inverse kinematics; see `ControllerArrays`."""
-
-    shorter: np.ndarray
-    last: np.ndarray
-    weights: np.ndarray
 
 
 class ControllerArrays(NamedTuple):
@@ -168,15 +159,16 @@ def targets(
             unpacks them three times as fast, which halves the time of a few moves.
         commands: workspace coordinates.
     """
-    arms, box = Arms(placements, slides), Region(centre, half_ranges, vectors)
-    start = Polynomial(shorter, last, weights)
+    nominal = ControllerArrays(
+        placements, slides, centre, half_ranges, vectors, shorter, last, weights, lower, upper
+    )
     joints = weights.shape[1]
     angles, errors = np.empty((len(commands), joints)), np.empty(len(commands))
     within = np.empty(len(commands), dtype=np.bool_)
-    scratch, room = _scratch(joints), _room(start)
+    scratch, room = _scratch(joints), _room(len(last))
     for index in range(len(commands)):
-        errors[index] = _answer(arms, box, start, commands[index], room, scratch, angles[index])
-        within[index] = _within(angles[index], lower, upper)
+        answer = _answer(nominal, commands[index], room, scratch, angles[index])
+        errors[index], within[index] = answer
     return angles, errors, within
 
 
@@ -210,18 +202,19 @@ def move(
     Returns the achieved poses (run, move, 6) in coordinates, and whether each command was executed
     (run, move).
     """
-    nominal, damaged = Arms(placements, slides), Arms(damaged_placements, damaged_slides)
-    box, start = Region(centre, half_ranges, vectors), Polynomial(shorter, last, weights)
-    runs, moves, _ = commands.shape
-    joints = weights.shape[1]
+    nominal = ControllerArrays(
+        placements, slides, centre, half_ranges, vectors, shorter, last, weights, lower, upper
+    )
+    damaged, box = Arms(damaged_placements, damaged_slides), Region(centre, half_ranges, vectors)
+    (runs, moves, _), joints = commands.shape, weights.shape[1]
     achieved, executed = np.empty(commands.shape), np.empty((runs, moves), dtype=np.bool_)
-    scratch, room, angles = _scratch(joints), _room(start), np.empty(joints)
+    scratch, room, angles = _scratch(joints), _room(len(last)), np.empty(joints)
     pose, relative, origins, axes = scratch[1], room[2], scratch[2], scratch[3]
     for run in range(runs):
         arm = run if len(homes) > 1 else 0
         for index in range(moves):
-            error = _answer(nominal, box, start, commands[run, index], room, scratch, angles)
-            executed[run, index] = error <= TOLERANCE and _within(angles, lower, upper)
+            error, within = _answer(nominal, commands[run, index], room, scratch, angles)
+            executed[run, index] = error <= TOLERANCE and within
             if executed[run, index]:
                 _stand(damaged, arm, angles, pose, origins, axes)
                 _write_coordinates(pose, box, relative, achieved[run, index])
@@ -232,51 +225,45 @@ def move(
 
 
 @inner
-def _room(start: Polynomial) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _room(monomials: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Work arrays of `_answer`: monomials, coordinates, a relative rotation and a pose."""
-    return np.empty(len(start.last)), np.empty(6), np.empty((3, 3)), np.empty((3, 4))
+    return np.empty(monomials), np.empty(6), np.empty((3, 3)), np.empty((3, 4))
 
 
 @inner
 def _answer(
-    arms: Arms,
-    box: Region,
-    start: Polynomial,
+    nominal: ControllerArrays,
     command: np.ndarray,
     room: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
     scratch: tuple[np.ndarray, ...],
     angles: np.ndarray,
-) -> float:
-    """Write the joint angles (n,) for a command; return their error."""
+) -> tuple[float, bool]:
+    """Write the joint angles (n,) for a command; return their error, and if they are allowed."""
+    arms = Arms(nominal.placements, nominal.slides)
+    box = Region(nominal.centre, nominal.half_ranges, nominal.vectors)
     products, point, relative, pose = room
     _write_pose(command, box, relative, pose)
     _copy(command, point)
-    beyond = far = False
-    for number in range(6):
-        far |= number >= 3 and abs(point[number] * box.half_ranges[number]) > np.pi / 2
+    far = False
+    for number in range(3, 6):
+        far |= abs(point[number] * box.half_ranges[number]) > np.pi / 2
     if far:  # a rotation beyond 90 degrees may equal one with smaller coordinates
         _write_coordinates(pose, box, relative, point)
-    for number in range(6):
-        beyond |= abs(point[number]) > TRUSTED
-    if beyond:  # the polynomial is useless so far out: start from the nearest pose inside instead
+    if _longest(point) > TRUSTED:
+        # the polynomial is useless so far out: start from the nearest pose inside instead
         for number in range(6):
             point[number] = min(max(point[number], -1.0), 1.0)
     products[0] = 1
     for joint in range(len(angles)):
-        angles[joint] = start.weights[0, joint]
+        angles[joint] = nominal.weights[0, joint]
     for index in range(1, len(products)):
-        products[index] = products[start.shorter[index]] * point[start.last[index]]
+        products[index] = products[nominal.shorter[index]] * point[nominal.last[index]]
         for joint in range(len(angles)):
-            angles[joint] += products[index] * start.weights[index, joint]
-    return _newton(arms, pose, angles, scratch)
-
-
-@inner
-def _within(angles: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> bool:
-    within = True
+            angles[joint] += products[index] * nominal.weights[index, joint]
+    error, within = _newton(arms, pose, angles, scratch), True
     for joint in range(len(angles)):
-        within &= lower[joint] <= angles[joint] <= upper[joint]
-    return within
+        within &= nominal.lower[joint] <= angles[joint] <= nominal.upper[joint]
+    return error, within
 
 
 @inner
@@ -415,17 +402,14 @@ def _residual(pose: np.ndarray, goal: np.ndarray, residual: np.ndarray) -> float
             )
         residual[3 + row] = turn / 2
     longest = _longest(residual)
-    return np.inf if longest < SMALL and _is_half_a_turn(pose, goal) else longest
-
-
-@inner
-def _is_half_a_turn(pose: np.ndarray, goal: np.ndarray) -> bool:
-    """Whether the rotation from pose to goal, which is about 0 or 180 degrees, is about 180."""
-    trace = 0.0
-    for row in range(3):
-        for column in range(3):
-            trace += goal[row, column] * pose[row, column]
-    return trace < 1
+    if longest < SMALL:  # the rotation is about 0 or 180 degrees
+        trace = 0.0
+        for row in range(3):
+            for column in range(3):
+                trace += goal[row, column] * pose[row, column]
+        if trace < 1:
+            return np.inf
+    return longest
 
 
 @inner

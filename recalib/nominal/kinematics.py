@@ -54,11 +54,7 @@ class Coupling:
 
     def reported(self, joints: np.ndarray) -> np.ndarray:
         """Reported coordinates (n, columns), from those of all joints (n, joints)."""
-        return (joints - self.shifts) @ self._inverse.T
-
-    @cached_property
-    def _inverse(self) -> np.ndarray:
-        return np.linalg.pinv(self.gains)
+        return (joints - self.shifts) @ np.linalg.pinv(self.gains).T
 
 
 class Arm:
@@ -87,6 +83,11 @@ class Arm:
         gains, count = np.eye(len(self.joints)), len(self.joints)
         identity = Coupling(self.joints, self.slides, gains, np.zeros(count), limits)
         return self._coupling or identity
+
+    @property
+    def end(self) -> pin.Frame:
+        """The tool's frame, placed in the last joint's frame. Changing it changes the arm."""
+        return self.model.frames[self._frame]
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -154,9 +155,9 @@ class Arm:
         """Positions (n, joint + 2, 3) [m] of base, joints and tool at angles (n, joint) [rad]."""
         postures, shape = self._postures(angles)
         points = np.zeros((len(postures), self.model.njoints + 1, 3))
-        points[:, -1] = self.forward(postures)[:, :3, 3]
         for skeleton, q in zip(points, postures, strict=True):
             pin.forwardKinematics(self.model, self._data, q)
+            skeleton[-1] = pin.updateFramePlacement(self.model, self._data, self._frame).translation
             skeleton[1:-1] = [placement.translation for placement in list(self._data.oMi)[1:]]
         return points.reshape(*shape, *points.shape[1:])
 

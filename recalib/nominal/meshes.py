@@ -56,8 +56,9 @@ def _find(name: str, urdf: Path) -> Path | None:
     package, _, path = name.removeprefix(PACKAGE).lstrip("/").partition("/")
     if name.startswith(PACKAGE):
         places = [(folder, folder / path) for folder in _packages(package, urdf)]
-    else:
-        places = [(_home(urdf), urdf.parent / name.removeprefix("file://"))]
+    else:  # in the URDF's package, or in its folder if there is none
+        home = next((folder for folder in urdf.parents if _is_package(folder)), urdf.parent)
+        places = [(home, urdf.parent / name.removeprefix("file://"))]
     try:
         for folder, place in places:
             file = place.resolve()
@@ -67,11 +68,6 @@ def _find(name: str, urdf: Path) -> Path | None:
     except (OSError, RuntimeError):  # an impossible file name, or a loop of symbolic links
         pass
     return None
-
-
-def _home(urdf: Path) -> Path:
-    """The package that contains a URDF, or its folder if there is none."""
-    return next((folder for folder in urdf.parents if _is_package(folder)), urdf.parent)
 
 
 def _packages(name: str, urdf: Path) -> Iterator[Path]:

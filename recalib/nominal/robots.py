@@ -13,7 +13,7 @@ from recalib.arrays import array_of, numbers
 from recalib.errors import InvalidSetting, UnsuitableRobot, check_kind, check_name
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
-from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.kinematics import Arm
 from recalib.nominal.poses import Workspace
 
 
@@ -51,7 +51,7 @@ class Robot:
     @property
     def outward(self) -> np.ndarray:
         """Unit vector (3,) in the tool's frame, along the last joint's axis, away from the arm."""
-        return _end(self.arm).rotation.T @ _outward(self.arm)
+        return self.arm.end.placement.rotation.T @ _outward(self.arm)
 
 
 def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
@@ -61,22 +61,17 @@ def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
     )
 
 
-def link_end(model: pin.Model, tool: str, joint: int) -> pin.SE3:
-    """The end of the link after `joint`, in its frame [m]. Changing it changes the model."""
-    if joint < model.njoints - 1:
-        return model.jointPlacements[joint + 1]
-    return model.frames[tool_frame(model, tool)].placement
-
-
-def _end(arm: Arm) -> pin.SE3:
-    """The tool's pose in the last joint's frame [m]. Changing it changes the model."""
-    return link_end(arm.model, arm.tool, arm.model.njoints - 1)
+def link_end(arm: Arm, joint: int) -> pin.SE3:
+    """The end of the link after `joint`, in its frame [m]. Changing it changes the arm."""
+    if joint < len(arm.joints):
+        return arm.model.jointPlacements[joint + 1]
+    return arm.end.placement
 
 
 def _outward(arm: Arm) -> np.ndarray:
     """Unit vector (3,) along the last joint's axis, towards the tool: URDFs define either sign."""
     axis = arm.axes[-1]
-    return math.copysign(1, _end(arm).translation @ axis) * axis
+    return math.copysign(1, arm.end.placement.translation @ axis) * axis
 
 
 def load_robot(
@@ -111,7 +106,7 @@ def load_robot(
     path, limits = find_urdf(urdf), limits or {}
     array_of("beyond", beyond, ())
     arm = load_arm(path, tool)
-    end = _end(arm).translation
+    end = arm.end.placement.translation
     end += beyond * _outward(arm)
     joints = arm.joints
     if len(arm.coupling.columns) < len(joints):

@@ -180,8 +180,7 @@ class Guarded:
         poses = self._arm.forward(np.array(readings))
         gaps = poses[:, None, :3, 3] - poses[:, :3, 3]
         turns = np.linalg.norm(poses[:, None, :3, :3] - poses[:, :3, :3], axis=(2, 3)) / np.sqrt(2)
-        moved: float = (np.linalg.norm(gaps, axis=2) + RADIUS * turns).max()
-        return moved
+        return (np.linalg.norm(gaps, axis=2) + RADIUS * turns).max()
 
     def _numbers(self, name: str, given: Any) -> np.ndarray:
         """The numbers (joints,) in a station's answer, in the order of the arm's joints."""

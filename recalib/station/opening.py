@@ -11,11 +11,11 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -43,21 +43,17 @@ def open_station(text: str) -> Station:
             raise StationFailed(f"{text!r} is not a command line: {error}") from None
         if not command:
             raise StationFailed("STATION is empty; expected: FILE.py:NAME, or a command line")
-        if len(command) == 1 and _lacks_a_name(command[0]):
+        word, *others = command
+        is_file = word.endswith(".py") and shutil.which(word) is None  # and not a command
+        if not others and (is_file or word.endswith(":")):
             raise StationFailed(f"{text} has no NAME of a class; expected: FILE.py:NAME")
         return ProgramStation(command)
     try:
-        make: Callable[[], Station] = getattr(_module(named["home"]), named["name"])
-        return make()
+        return getattr(_module(named["home"]), named["name"])()
     except StationFailed:
         raise
     except Exception as error:  # the user's code may raise anything
         raise StationFailed(f"{text} cannot be made: {type(error).__name__}: {error}") from error
-
-
-def _lacks_a_name(text: str) -> bool:
-    """Whether a text is a Python file that is no command, or a module with a bare colon."""
-    return text.endswith(":") or (text.endswith(".py") and shutil.which(text) is None)
 
 
 def _module(home: str) -> ModuleType:
@@ -119,10 +115,10 @@ class ProgramStation:
         self._ask("move", angles=angles.tolist(), speed=speed)
 
     def angles(self) -> np.ndarray:
-        return cast(np.ndarray, self._ask("angles", "angles")["angles"])  # checked by the caller
+        return self._ask("angles", "angles")["angles"]  # checked by the caller
 
     def measure(self) -> Mapping[str, float | str] | None:
-        return cast(Mapping[str, float | str] | None, self._ask("measure", "row")["row"])
+        return self._ask("measure", "row")["row"]
 
     def stop(self) -> None:
         with suppress(OSError, ValueError):  # the program has ended, or its input is closed

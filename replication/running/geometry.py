@@ -161,7 +161,7 @@ def _of_assignment(robot: Robot, study: Study) -> Iterator[Mistake]:
             fault = f" is a list of {len(amounts)}; expected: {valid}"
             yield Mistake(("paper_damage", key), fault, (other,))
     arm, most = robot.arm, max(damage.shorten)
-    ends = {link: link_end(arm.model, arm.tool, robot.links[link]) for link in links}
+    ends = {link: link_end(arm, robot.links[link]) for link in links}
     lengths = {link: np.linalg.norm(end.translation) for link, end in ends.items()}
     short = [f"{link} {100 * length:.2f} cm" for link, length in lengths.items() if length <= most]
     if short:

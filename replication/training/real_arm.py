@@ -16,7 +16,7 @@ from recalib.learners.geometric import GeometricLearner
 from recalib.learners.kinds import KINEMATICS, class_of
 from recalib.learners.observer import Observer
 from recalib.nominal.controller import Controller
-from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.kinematics import Arm
 from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
@@ -33,7 +33,7 @@ ROUNDING = 1e-9  # m, rad: a smaller extent of poses is zero, by which one must 
 def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
     """The robot with its tool and workspace moved to a point (3,) [m] in the tool's frame."""
     arm = robot.arm.copy()
-    tool = arm.model.frames[tool_frame(arm.model, arm.tool)]
+    tool = arm.end
     tool.placement = tool.placement * pin.SE3(np.eye(3), np.array(point))
     workspace = replace(robot.workspace, centre=arm.forward(robot.home[None])[0])
     return replace(robot, arm=arm, workspace=workspace)

@@ -13,15 +13,14 @@ LINKS = ["upper_arm_link", "forearm_link", "wrist_3_link"]  # across two axes; a
 def ends(robot, damage) -> tuple[np.ndarray, np.ndarray]:
     """Where the link of a damage ends in its frame (4, 4): as built, and damaged."""
     arms = robot.arm, apply(robot, [damage]).arm
-    built, damaged = (
-        link_end(arm.model, "tool0", robot.links[damage.link]).homogeneous for arm in arms
-    )
+    built, damaged = (link_end(arm, robot.links[damage.link]).homogeneous for arm in arms)
     return built, damaged
 
 
 def angle(one, other) -> float:
     """Between two directions [rad]."""
-    return np.arccos(one @ other / np.linalg.norm(one) / np.linalg.norm(other))
+    cosine = one @ other / np.linalg.norm(one) / np.linalg.norm(other)
+    return np.arccos(min(cosine, 1.0))
 
 
 @pytest.mark.parametrize("link", LINKS)

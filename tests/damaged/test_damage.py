@@ -69,7 +69,7 @@ def test_a_link_loses_its_length_and_nothing_else_changes(robot, link, whole):
 def test_a_link_may_lose_its_length_along_an_axis(robot, link, before, after):
     damaged = apply(robot, [LinkShortening(link, 0.04, "axis")])
     arms = robot.arm, damaged.arm
-    ends = [link_end(arm.model, "tool0", robot.links[link]).translation for arm in arms]
+    ends = [link_end(arm, robot.links[link]).translation for arm in arms]
     assert np.allclose(ends, [before, after])
     with pytest.raises(InvalidSetting, match=r"61\.2 cm.*; expected: .* below (61.20|9.22) cm"):
         apply(robot, [LinkShortening(link, 0.612, "axis")])

@@ -6,8 +6,12 @@ import pytest
 from recalib import (
     Chain,
     Controller,
+    EncoderShift,
+    GeometricLearner,
+    Plant,
     UnfitWorkspace,
     Unreachable,
+    apply,
     orientation_error,
     position_error,
 )
@@ -134,16 +138,13 @@ def test_the_posture_changes_smoothly_and_hardly_without_moving_the_tool(redunda
 
 
 def test_commands_are_found_for_joint_angles_that_the_controller_would_not_choose(redundant):
-    desired = redundant.robot.workspace.sample(np.random.default_rng(3), 1, 30)
-    tilt = np.radians([1, -2, 4, 1, -3, 2, 1])  # what an arm with shifted encoders would need
-    poses = redundant.robot.workspace.to_poses(desired)[0]
-
-    def needed(angles):
-        found, residuals = redundant._chain.solve(poses, angles[0] + tilt)
-        assert residuals.max() < 1e-9
-        return (found - tilt)[None]
-
-    commands = redundant.commands_for(desired, needed)
-    standing = redundant.targets(commands).angles[0] + tilt
-    reached = redundant.robot.arm.forward(standing)
-    assert position_error(reached, poses).max() < 1e-7
+    """After an arm of seven joints with shifted encoders was identified from forty moves."""
+    robot, rng = redundant.robot, np.random.default_rng(3)
+    shifts = zip(robot.joints, np.radians([1, -2, 4, 1, -3, 2, 1]), strict=True)
+    plant = Plant(redundant, apply(robot, [EncoderShift(*shift) for shift in shifts]))
+    learner, practised = GeometricLearner(redundant), robot.workspace.sample(rng, 1, 40)
+    learner.observe(practised, *plant.execute(practised))
+    desired = robot.workspace.sample(rng, 1, 30)
+    achieved, executed = plant.achieve(learner.command(desired))
+    assert executed.all()
+    assert position_error(achieved, robot.workspace.to_poses(desired)).max() < 1e-6

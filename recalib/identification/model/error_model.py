@@ -26,7 +26,7 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.identification.model.frames import HELD, UNKNOWN, Frames
-from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.kinematics import Arm
 
 # By name: a function of the nominal arm and of joint coordinates (n, joints) [rad, m] that returns
 # a value for each joint (n, joints), and the prior standard deviation of its coefficients, one for
@@ -105,7 +105,7 @@ class ErrorModel:
         if not terms:
             self.deviations[~self.free] = HELD
         self._base = pin.SE3(self.frames.base)
-        self._tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement
+        self._tool = arm.end.placement
         first, *others = arm.model.jointPlacements[1:]
         self._placements = [self._base * first, *others]
         self._placements += [self._tool * pin.SE3(target) for target in targets]
@@ -178,10 +178,8 @@ class ErrorModel:
 
     def coefficients(self, parameters: np.ndarray) -> dict[str, np.ndarray]:
         """The coefficients (joints,) of each joint term in the parameters (P,)."""
-        return dict(zip(self._terms, self._coefficients(parameters), strict=True))
-
-    def _coefficients(self, parameters: np.ndarray) -> np.ndarray:
-        return parameters[self._geometry :].reshape(-1, self._joints)
+        by_term = parameters[self._geometry :].reshape(-1, self._joints)
+        return dict(zip(self._terms, by_term, strict=True))
 
     def _placed(self, parameters: np.ndarray) -> list[pin.SE3]:
         """The placements of joints and targets, moved by the twists in the parameters."""
@@ -194,7 +192,7 @@ class ErrorModel:
         arm = self.nominal.copy()
         for joint, placement in enumerate(joints, start=1):
             arm.model.jointPlacements[joint] = placement
-        arm.model.frames[tool_frame(arm.model, arm.tool)].placement = tool
+        arm.end.placement = tool
         return arm
 
     def arm(self, parameters: np.ndarray, sight: int = 0) -> Arm:
@@ -237,7 +235,8 @@ class ErrorModel:
     ) -> np.ndarray:
         """The actual joint coordinates (n, joints) [rad, m]: the reported ones plus errors."""
         terms = self.terms(joints) if terms is None else terms
-        return joints + np.einsum("ntj,tj->nj", terms, self._coefficients(parameters))
+        coefficients = parameters[self._geometry :].reshape(-1, self._joints)
+        return joints + np.einsum("ntj,tj->nj", terms, coefficients)
 
     def predict(
         self, parameters: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None

@@ -72,16 +72,6 @@ class Frames:
         """The poses (instrument, 4, 4) [m] of the arm's base in the frame of each instrument."""
         return np.concatenate([self.base[None], self.further])
 
-    def with_priors(self, base: np.ndarray | None, target: np.ndarray | None) -> "Frames":
-        """The same frames, of which one or both are known within deviations (6,); see above."""
-        frames = self
-        if base is not None:
-            frames = replace(frames, base_prior=base, base_unknown=True, base_deviations=UNKNOWN)
-        if target is None:
-            return frames
-        frames = replace(frames, target_prior=target, targets_unknown=True)
-        return replace(frames, target_deviations=UNKNOWN)
-
     def with_optics(self, optics: Optics) -> "Frames":
         """The same frames, with the optics of cameras as parameters."""
         return replace(self, optics_deviations=optics.deviations, optics_kinds=optics.kinds)

@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from recalib.arrays import are_poses
 from recalib.errors import BadMeasurement, InvalidSetting, check_kind
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.optics import Optics
-from recalib.loop.external import FARTHEST, POSE, are_poses
+from recalib.loop.external import FARTHEST, POSE, SKEW
 
 TURNED = 4 * np.pi  # rad: larger joint angles are impossible, or not in radians
 
@@ -163,7 +164,7 @@ def check_rows(observations: Observations) -> None:
     if measured is not None:
         _check_each("measurement", measured, np.isfinite(measured), "numbers")
         if observations.kinds == 2:
-            _check_each("measurement", measured, are_poses(measured), POSE)
+            _check_each("measurement", measured, are_poses(measured, SKEW), POSE)
 
 
 def _check_each(what: str, values: np.ndarray, good: np.ndarray, valid: str) -> None:

@@ -6,7 +6,7 @@ import coal
 import numpy as np
 import pinocchio as pin
 
-from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.kinematics import Arm
 
 MARGIN = 0.02  # m between two shapes
 SECOND = 2  # the joint that carries the second link; links after it must clear the floor
@@ -40,8 +40,7 @@ class Clearance:
         self._shapes = pin.GeometryModel()
         self.pairs: list[tuple[str, str]] = []  # the names of the shapes that keep apart
         self._margins: dict[float, pin.GeometryData] = {}
-        frame = arm.model.frames[tool_frame(arm.model, arm.tool)]
-        tool = TOOL, frame.parentJoint, frame.placement, coal.Sphere(max(tool_radius, 1e-6))
+        tool = TOOL, arm.end.parentJoint, arm.end.placement, coal.Sphere(max(tool_radius, 1e-6))
         links = [*shapes.geometryObjects, pin.GeometryObject(*tool)]
         pin.forwardKinematics(self._model, self._data, home)
         for one, other in combinations(links, 2) if self_collision else ():

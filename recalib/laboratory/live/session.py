@@ -9,13 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import (
-    InvalidFile,
-    InvalidSetting,
-    RecalibError,
-    UnsuitableRobot,
-    check_kind,
-)
+from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnsuitableRobot, check_kind
 from recalib.files.outputs import AnyPath
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.model.observations import Observations

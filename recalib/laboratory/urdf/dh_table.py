@@ -13,7 +13,7 @@ from recalib.laboratory.tables.table import read_table
 from recalib.laboratory.urdf.origins import origin_element, written
 from recalib.nominal.arms import UNBOUNDED
 from recalib.nominal.denavit_hartenberg import BASE, MOST, TOOL, Row
-from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.kinematics import Arm
 
 MOUNT = f"{TOOL}_mount"  # the joint between the last link and the tool
 KINDS = "revolute", "prismatic"
@@ -68,6 +68,6 @@ def urdf_of(arm: Arm) -> str:
     """The URDF of an arm, without masses and limits: a link for each joint, and the tool."""
     origins = [origin_element(pose.homogeneous) for pose in arm.model.jointPlacements[1:]]
     joints = [*zip(arm.joints, arm.slides, map(written, arm.axes), origins, strict=True)]
-    tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
-    mounted = {"tool": TOOL, "mount": MOUNT, "mounted": origin_element(tool)}
+    end = origin_element(arm.end.placement.homogeneous)
+    mounted = {"tool": TOOL, "mount": MOUNT, "mounted": end}
     return render("arm.urdf.j2", base=BASE, joints=joints, unbounded=UNBOUNDED, **mounted)

@@ -18,7 +18,7 @@ from recalib.errors import UnsuitableRobot
 from recalib.files.storage import encoding
 from recalib.identification.calibration import Calibration
 from recalib.nominal.descriptions import link_of, local_name, parsed
-from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.kinematics import Arm
 
 CORRECTED = "_corrected"  # appended to the tool's name in the name of the new link
 _TAG = re.compile(rb"</?(?P<prefix>(?:[^\s:>\"']+:)?)(?:[^>\"']|\"[^\"]*\"|'[^']*')*>")
@@ -36,7 +36,7 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
     for joint, (before, moved) in enumerate(moving, start=1):
         placement = arm.model.jointPlacements[joint].homogeneous
         origins[moved] = np.linalg.inv(before) @ placement @ offsets[joint - 1]
-    tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
+    tool = arm.end.placement.homogeneous
     if last is not None:
         origins[last] = np.linalg.inv(fixed) @ tool
         return with_origins(source, origins), nominal.tool
