@@ -139,7 +139,7 @@ def _check_size(scale: float, deviation: float) -> None:
     raise Mistaken(
         f"according to the flange's positions, the board is {100 * abs(scale - 1):.1f} % (deviation"
         f" {100 * deviation:.1g} %) {'larger' if scale > 1 else 'smaller'} than described; try:"
-        " measure its square and the bar below it"
+        f" lengths in --board times {scale:.4g}, after measuring a square"
     )
 
 
