@@ -1,7 +1,5 @@
-"""Poses as other programs save them, by examples/poses.py: read as they were written."""
+"""Poses as other programs save them: read as they were written."""
 
-import runpy
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +10,6 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from recalib.laboratory.hand_eye.pose_table import read_poses
-from tests.conftest import ROOT
 from tests.vision.hand_eye_cells import turned
 
 COUNT = 9
@@ -45,11 +42,6 @@ def drawn(seed: int) -> np.ndarray:
     return turned(rng.normal(size=(COUNT, 3)), rng.normal(size=(COUNT, 3)))
 
 
-def convert(home: pytest.MonkeyPatch, *arguments: str) -> None:
-    home.setattr(sys, "argv", ["poses.py", *arguments])
-    runpy.run_path(str(ROOT / "examples" / "poses.py"))
-
-
 @pytest.mark.parametrize(("ours", "theirs", "write", "way"), LAYOUTS.values(), ids=LAYOUTS)
 @seeds
 @few
@@ -60,35 +52,50 @@ def test_samples(ours, theirs, write, way, home, seed):
     Path("samples.yaml").write_text(
         yaml.safe_dump({"samples": samples} if way else samples, sort_keys=False)
     )
-    convert(home, "samples.yaml")
-    for name, poses in (("poses.txt", flange), ("targets.txt", board)):
-        assert read_poses(name, way).poses == pytest.approx(poses, abs=1e-9)
+    for targets, poses in ((False, flange), (True, board)):
+        read = read_poses("samples.yaml", targets=targets).poses
+        assert read == pytest.approx(poses, abs=1e-9)
 
 
-@pytest.mark.parametrize("layout", ["ViSP", "CalLab"])
+@pytest.mark.parametrize("layout", ["ViSP", "OpenCV", "text", "JSON"])
 @seeds
 @few
 def test_a_file_for_each_picture(layout, home, seed):
-    """Numbers have gaps, some pictures have no pose, and 10 is after 9."""
-    numbers = np.sort(np.random.default_rng(seed).choice(30, COUNT + 2, replace=False))
+    """Numbers have gaps, and 10 is after 9."""
+    numbers = np.sort(np.random.default_rng(seed).choice(30, COUNT, replace=False))
     for path in Path().iterdir():
         path.unlink()
-    for number in numbers:
-        Path(f"camera2-{number:02}.png").touch()
     poses = drawn(seed)
-    for number, pose in zip(numbers, poses, strict=False):
+    for number, pose in zip(numbers, poses, strict=True):
+        file = Path(f"pose_{number}.yaml")
         turn = Rotation.from_matrix(pose[:3, :3]).as_rotvec()
         rows = "".join(f"  - [{one:.9g}]\n" for one in (*pose[:3, 3], *turn))
         if layout == "ViSP":
-            Path(f"pose_fPe_{number}.yaml").write_text(f"rows: 6\ncols: 1\ndata: \n{rows}")
+            file.write_text(f"rows: 6\ncols: 1\ndata: \n{rows}")
+        elif layout == "OpenCV":
+            head = "%YAML:1.0\n---\nPoseState: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n"
+            file.write_text(f"{head}   data: {pose.ravel().tolist()}")
+        elif layout == "JSON":
+            file.write_text(str({"pose": pose.tolist()}).replace("'", '"'))
         else:
-            np.savetxt(f"{number}.coords", pose[:3])
-    if layout == "ViSP":
-        convert(home, "pose_*.yaml", "camera2-*.png", "x,y,z,rx,ry,rz")
-    else:
-        convert(home, "*.coords", "*.png")
-    table = read_poses("poses.csv", "ur" if layout == "ViSP" else None)
+            np.savetxt(file, pose[:3])
+    table = read_poses("pose_*.yaml", "ur" if layout == "ViSP" else None)
     assert table.poses == pytest.approx(poses, abs=1e-7)
-    assert table.table.cells["picture"] == [
-        f"camera2-{number:02}.png" for number in numbers[:COUNT]
-    ]
+
+
+def test_a_table_of_other_separators_and_brackets(home):
+    poses = drawn(3)
+    rows = np.concatenate(
+        [1e3 * poses[:, :3, 3], Rotation.from_matrix(poses[:, :3, :3]).as_quat(scalar_first=True)],
+        axis=1,
+    )
+    Path("robtargets").write_text(
+        "\n".join(
+            f"[{row[:3].tolist()},{row[3:].tolist()},[0,0,1,0],[9E9" + ",9E9" * 5 + "]]"
+            for row in rows
+        )
+    )
+    semicolons = "\n".join(";".join(map(str, row)).replace(".", ",") for row in rows)
+    Path("semicolons").write_text(f"X;Y;Z;Q1;Q2;Q3;Q4\n{semicolons}")
+    for name in ("robtargets", "semicolons"):
+        assert read_poses(name, "abb").poses == pytest.approx(poses, abs=1e-9)

@@ -9,8 +9,13 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.identification.checks.moved import moved_ends
 from recalib.identification.checks.sequence import Fault
-from recalib.identification.hand_eye import calibrate_hand_eye, held_out, upended
-from recalib.identification.model.hand_eye_model import HandEye, Sights
+from recalib.identification.hand_eye import (
+    calibrate_hand_eye,
+    held_out,
+    upended,
+    weighed_to_predict,
+)
+from recalib.identification.model.hand_eye_model import ENDS, HandEye, Sights
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.calibrate import Progress
 from recalib.laboratory.hand_eye.mistakes import (
@@ -33,6 +38,7 @@ from recalib.vision.lens_search import moved_lens
 from recalib.vision.views import optics_of, sighting
 
 HAND_EYE, POSES = "hand_eye.toml", "poses.csv"
+ROUNDS, SETTLED = 4, 0.3  # of the lens; the largest step at convergence, in deviations
 MOST = 1 / 3  # of the poses: if more are outliers, the result cannot be trusted
 
 
@@ -46,15 +52,16 @@ def pictures_at(
 ) -> Observed:
     """The board in pictures that were taken at flange poses. Raises like `observe`.
 
-    Without a column `picture`, the rows of the table follow the order of the pictures' names.
+    Without a column of their names, the rows of the table follow the order of these names.
     """
     table = flange.table
-    if PICTURE not in table:
-        names = [path.name for path in pictures_in(folder)] if folder.is_dir() else []
-        if len(names) != len(flange):
-            counts = f"it has {counted(len(flange), 'row')}, and {folder} has {len(names)} pictures"
-            raise InvalidFile(table.path, f"{counts}; try: a column 'picture' with their names")
-        table = replace(table, cells={PICTURE: names}, units={PICTURE: ""})
+    names = [path.name for path in pictures_in(folder)] if folder.is_dir() else []
+    cells = next((each for each in table.cells.values() if {*each} <= {*names}), None)
+    if cells is None and PICTURE not in table and len(names) != len(flange):
+        counts = f"it has {counted(len(flange), 'row')}, and {folder} has {len(names)} pictures"
+        raise InvalidFile(table.path, f"{counts}; try: a column 'picture' with their names")
+    cells = cells or table.cells.get(PICTURE, names)
+    table = replace(table, cells={PICTURE: cells}, units={PICTURE: ""})
     return observe(folder, table, board, lens, in_hand, progress, least=FEWEST)
 
 
@@ -76,7 +83,7 @@ def calibrate_poses(
     """
     pictures = targets = doubt = None
     if isinstance(shown, PoseTable):
-        targets, board, optics = shown, shown.poses, None
+        targets, sights = shown, Sights(flange.poses, shown.poses, in_hand, None, height)
         if len(flange) != len(targets):
             valid = f"expected: {len(flange)}, as in {flange.table.path.name}"
             raise InvalidFile(targets.table.path, f"it has {counted(len(targets), 'row')}; {valid}")
@@ -84,28 +91,50 @@ def calibrate_poses(
         check_copies(replace(targets.table, cells={**flanges, **targets.table.cells}))
     else:
         doubt = shown.doubt  # checked first, so that a wrong lens does not look like wrong poses
-        pictures, by_lens = shown, (shown.given is None, False)
-        flange = flange[np.array([picture.row - 1 for picture in shown.used])]
-        views = [view for _, view in views_of(shown.board, shown.used)]
-        if shown.board.same_upside_down:
-            last = len(shown.board.points) - 1
-            turned = upended(flange.poses, np.array([picture.pose for picture in shown.used]))
-            views = [
-                replace(view, numbers=np.where(half, last - view.numbers, view.numbers))
-                for view, half in zip(views, turned, strict=True)
-            ]
-        sightings = [sighting(shown.board, shown.lens, view, *by_lens) for view in views]
-        board, optics = optics_of(shown.lens, sightings)
-    sights = Sights(flange.poses, board, in_hand, optics, height)
+        pictures, flange = shown, flange[np.array([picture.row - 1 for picture in shown.used])]
+        sights = _seen(shown, flange.poses, height)
     check_motion(sights)
     on_progress("camera and board")
     found = calibrate_hand_eye(sights)
+    if pictures is not None:
+        pictures, found = _with_lens(pictures, found)
     faults, corrected = moved_ends(found)
     check_fit(corrected, flange, targets)
+    found = found if pictures is None else weighed_to_predict(found)
     on_progress("errors of poses that are held out")
     good = found.misfit <= WRONG and len(found.outliers) / len(flange) <= MOST
     doubts = [*_doubts(found, pictures, faults, doubt)]
     return _files(found, flange.table.path.name, pictures, doubts, good), good
+
+
+def _seen(shown: Observed, flange: np.ndarray, height: tuple[float, float] | None) -> Sights:
+    """What pictures show at the flange's poses (n, 4, 4)."""
+    views = [view for _, view in views_of(shown.board, shown.used)]
+    if shown.board.same_upside_down:
+        last = len(shown.board.points) - 1
+        turned = upended(flange, np.array([picture.pose for picture in shown.used]))
+        views = [
+            replace(view, numbers=np.where(half, last - view.numbers, view.numbers))
+            for view, half in zip(views, turned, strict=True)
+        ]
+    sightings = [
+        sighting(shown.board, shown.lens, view, shown.given is None, False) for view in views
+    ]
+    board, optics = optics_of(shown.lens, sightings)
+    return Sights(flange, board, shown.in_hand, optics, height)
+
+
+def _with_lens(shown: Observed, found: HandEye) -> tuple[Observed, HandEye]:
+    """The same by a lens near that of the fit: residuals are linear in small corrections only."""
+    for _ in range(ROUNDS):
+        step = found.optics[len(BOARD) :]
+        sizes = np.sqrt(found.covariance.diagonal()[ENDS + len(BOARD) :])
+        settled = (np.abs(step) <= SETTLED * sizes).all()
+        if settled or (lens := moved_lens(shown.lens, step)) is None:
+            break
+        shown = replace(shown, own=replace(shown.own, lens=lens))
+        found = calibrate_hand_eye(_seen(shown, found.sights.flange, found.sights.height))
+    return shown, found
 
 
 def _doubts(

@@ -71,7 +71,7 @@ def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> N
     sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
     scale, deviation, error = min(sizes, key=lambda size: size[2])
     if fits or (error < EXPLAINED * remaining and deviation < SIZE):
-        _check_size(scale, deviation)
+        _check_size(scale, deviation, SIZE if fits else 0.0)
     if not fits:
         _check_height(found.sights, remaining)
         _check_readings(found.sights, flange, targets, remaining)
@@ -126,9 +126,9 @@ def board_size(found: HandEye) -> tuple[float, float, float]:
     return scale, float(np.sqrt(spread)), remaining / scale if scale > 0 else np.inf
 
 
-def _check_size(scale: float, deviation: float) -> None:
-    """Raise Mistaken if positions and the board differ in scale."""
-    if abs(scale - 1) < max(SIZE, SURE * deviation):
+def _check_size(scale: float, deviation: float, least: float) -> None:
+    """Raise Mistaken if positions and the board differ in scale, by `least` or more."""
+    if abs(scale - 1) < max(least, SURE * deviation):
         return
     for factor, words in UNITS.items():
         if abs(scale * factor - 1) < 0.1:
@@ -139,7 +139,7 @@ def _check_size(scale: float, deviation: float) -> None:
     raise Mistaken(
         f"according to the flange's positions, the board is {100 * abs(scale - 1):.1f} % (deviation"
         f" {100 * deviation:.1g} %) {'larger' if scale > 1 else 'smaller'} than described; try:"
-        " measure its square and the bar below it"
+        f" lengths in --board times {scale:.4g}, after measuring a square"
     )
 
 

@@ -13,7 +13,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from recalib.errors import InvalidFile, UnknownName
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER
-from recalib.files.storage import read_file
+from recalib.laboratory.hand_eye.pose_files import read_text
 from recalib.laboratory.tables.columns import (
     PICTURES,
     POSITIONS,
@@ -22,15 +22,15 @@ from recalib.laboratory.tables.columns import (
     Columns,
 )
 from recalib.laboratory.tables.measurements import TURNS
-from recalib.laboratory.tables.table import MOST, Table, number_in, table_of
+from recalib.laboratory.tables.table import Table, number_in, table_of
 from recalib.spelling import listed
 
 NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions and of rotation matrices, by their count of numbers
 SKEW = 0.02  # relative error of a norm, from rounding
-_BETWEEN = re.compile(r"[\s,;]+")
-_COMMENT = re.compile(r"^\s*(#|%|//).*\n?", re.MULTILINE)
+_BETWEEN, _BRACKETS = re.compile(r"[\s,;]+"), re.compile(r"[\[\](){}]")
 _LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # without e, which is in 1e-3
 _NAN = re.compile(r"\b(nan|inf|infinity)\b", re.IGNORECASE)
+_ALONE = "by such headings, or by numbers alone in this order, without headings"
 _ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler angles; no axis twice in a row
 
 
@@ -122,22 +122,29 @@ class PoseTable:
 
 
 def read_poses(
-    path: AnyPath, convention: str | None = None, unit: str | None = None, inverted: bool = False
+    path: AnyPath,
+    convention: str | None = None,
+    unit: str | None = None,
+    inverted: bool = False,
+    targets: bool = False,
 ) -> PoseTable:
-    """The poses in the table at `path`.
+    """The poses in the table at `path`, or in files of other programs.
 
     Args:
         convention: the notation of rotations; if None, the headings decide.
         unit: of positions without a unit in their heading; default: that of the convention.
         inverted: whether the table has the inverse poses.
+        targets: whether the target's poses are read, if a file has both.
 
     Raises InvalidFile: a missing column, a cell that is not a number, numbers that are not a
     rotation; UnknownName: an unknown convention.
     """
     way = None if convention is None else convention_of(convention)
-    text = _COMMENT.sub("", read_file(path, MOST).decode("utf-8-sig", "replace"))
-    if not _LETTERS.search(_NAN.sub("", text)):
-        text = _headed(text, Path(path), way)
+    text, rows = read_text(path, targets)
+    if rows or not _LETTERS.search(_NAN.sub("", text)):
+        text = _headed(rows or _rows(text), Path(path), way)
+    if ";" in text.partition("\n")[0]:  # then commas are decimal
+        text = text.replace(",", ".").replace(";", ",")
     head, _, rest = text.partition("\n")
     table = table_of(f"{head.lower()}\n{rest}".encode(), path)
     if way is None or MATRIX[0] in table:
@@ -148,12 +155,17 @@ def read_poses(
         raise InvalidFile(path, f"{found}; or try: --convention, such as kuka")
     kind = ANGLE if len(way.headings) == 3 else NUMBER
     layout = (
-        Columns("positions", POSITIONS.headings, LENGTH, needed=True),
-        Columns("turns", way.headings, kind, needed=True),
+        Columns("positions", POSITIONS.headings, LENGTH, _ALONE, needed=True),
+        Columns("turns", way.headings, kind, _ALONE, needed=True),
     )
     units = dict(table.units)
     for columns, own in zip(layout, (unit or way.length, way.angle), strict=True):
         units |= {name: units.get(name) or own for name in columns.headings}
+    places = [abs(number_in(cell)) for cell in table.cells.get("x", ())]
+    if unit is None and units["x"] == "m" and np.max(places, initial=0) > LENGTH.farthest:
+        raise InvalidFile(
+            path, f"x in row 1 is {table.cells['x'][0]} m. Is its unit right? Try: --unit mm"
+        )
     table = replace(table, units=units)
     arrays = table.read((*layout, PICTURES), [*table.cells])
     turns, valid = arrays["turns"], NORMS.get(len(way.headings))
@@ -169,10 +181,13 @@ def read_poses(
     return PoseTable(table, arrays["positions"], rotations, turns, inverted)
 
 
-def _headed(text: str, path: Path, way: Convention | None) -> str:
+def _rows(text: str) -> list[list[str]]:
+    lines = (line.strip(" \t\r,;") for line in _BRACKETS.sub(" ", text).splitlines())
+    return [_BETWEEN.split(line) for line in lines if line]
+
+
+def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
     """Add headings to numbers alone: a pose in each row, or a matrix in each three or four."""
-    lines = (line.strip(" \t\r,;[]()") for line in text.splitlines())
-    rows = [_BETWEEN.split(line) for line in lines if line]
     if len(rows) > 1 and len(rows[0]) == 1:  # the number of poses that follow
         rows = rows[1:]
     if {len(row) for row in rows} == {4}:
@@ -188,6 +203,8 @@ def _headed(text: str, path: Path, way: Convention | None) -> str:
     if count == 16 and ends:
         found = f"the last row of a matrix is {' '.join(ends[0])}; expected: 0 0 0 1"
         raise InvalidFile(path, f"{found}; is it transposed?")
+    if way is CONVENTIONS["abb"] and count == 17:  # a robtarget, with configuration and other axes
+        rows, count = [row[:7] for row in rows], 7
     if count not in (12, 16):
         if way is None:
             raise InvalidFile(path, "it has no headings; try: --convention or --target-convention")
