@@ -25,7 +25,6 @@ FAR = 16.8  # the 99 % quantile of chi-square with 6 degrees of freedom; beyond 
 SETTLED = 0.01  # the largest change of weights at convergence
 FINEST, COARSEST = 1e-7, 1.0  # m, rad: bounds on the accuracy of any arm
 FOLDS = 30
-BETTER = 0.85  # of the held-out error of corners: chance alone makes it a tenth smaller
 EQUAL = 0.05  # rad: angles that may be the same
 TURNS = 24  # starting angles about the only axis
 OPEN = 1e-3  # of the largest singular value: smaller ones leave a direction undetermined
@@ -41,24 +40,6 @@ def calibrate_hand_eye(sights: Sights) -> HandEye:
         if np.abs(found.weights - before).max() < SETTLED:
             break
     return found
-
-
-def weighed_to_predict(found: HandEye) -> HandEye:
-    """The calibration, or one by minimal reprojection errors if held-out corners prefer it clearly.
-
-    Errors of the arm that vary smoothly with its pose are no noise: camera and board can absorb
-    some of them, and predict further pictures better.
-    """
-    corners = found.sights.corners
-    noise = np.einsum("nij,njk,nik->n", corners.pixels, corners.spread, corners.pixels).mean()
-    residuals = corners.moved(found.residuals(found.sights))
-    size = float(np.sqrt(np.average(residuals**2, weights=found.weights) / noise))
-    other = _moved_to_best(replace(found, by_corners=size))
-    error, least = (
-        np.average(corners.moved(held_out(one)) ** 2, weights=found.weights)
-        for one in (found, other)
-    )
-    return other if least < BETTER**2 * error else found
 
 
 def upended(flange: np.ndarray, board: np.ndarray) -> np.ndarray:

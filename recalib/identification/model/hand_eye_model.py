@@ -96,8 +96,6 @@ class HandEye:
         covariance: (12 + o, 12 + o) of camera, board and optics; poses are in m and rad, along the
             axes of the frames in which they are given.
         weights: (n,) up to about 1; small if a pose is doubtful.
-        by_corners: if positive, C_i is S_i times its square instead: errors of the arm are not
-            independent, and weigh like noise of the corners.
     """
 
     sights: Sights
@@ -108,7 +106,6 @@ class HandEye:
     noise: np.ndarray
     covariance: np.ndarray
     weights: np.ndarray
-    by_corners: float = 0.0
 
     @classmethod
     def at(cls, sights: Sights, camera: np.ndarray, board: np.ndarray) -> "HandEye":
@@ -176,8 +173,6 @@ class LinearHandEye:
 
     def covariances(self, accuracy: np.ndarray, noise: np.ndarray) -> np.ndarray:
         """C (n, 6, 6), without weights."""
-        if self.found.by_corners:
-            return self.found.by_corners**2 * self.found.sights.corners.spread
         scaled = self.by_flange * np.repeat(accuracy, 3)
         total = self.found.sights.corners.spread + scaled @ scaled.swapaxes(1, 2)
         total[:, :3, :3] += noise[0] ** 2 * self.sight[:, :, None] * self.sight[:, None]

@@ -9,12 +9,7 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.identification.checks.moved import moved_ends
 from recalib.identification.checks.sequence import Fault
-from recalib.identification.hand_eye import (
-    calibrate_hand_eye,
-    held_out,
-    upended,
-    weighed_to_predict,
-)
+from recalib.identification.hand_eye import calibrate_hand_eye, held_out, upended
 from recalib.identification.model.hand_eye_model import ENDS, HandEye, Sights
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.calibrate import Progress
@@ -100,7 +95,6 @@ def calibrate_poses(
         pictures, found = _with_lens(pictures, found)
     faults, corrected = moved_ends(found)
     check_fit(corrected, flange, targets)
-    found = found if pictures is None else weighed_to_predict(found)
     on_progress("errors of poses that are held out")
     good = found.misfit <= WRONG and len(found.outliers) / len(flange) <= MOST
     doubts = [*_doubts(found, pictures, faults, doubt)]
