@@ -229,26 +229,6 @@ def test_matrices(rows, count, length, tmp_path):
             read_poses(path)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("1 2 3 4 5 6\n1 2 3", "its rows have different lengths"),
-        ("1 2 3 4 5 6", "it has no headings; try: --convention"),
-        ("x [m],y [m],z [m]\n1,2,3", "it has no rotation; expected: qx, qy, qz, qw"),
-        ("x [m],y [m],z [m],qx,qy,qz,qw\n1,2,3,0,0,0,2", "the rotation in row 1 has the norm 2"),
-        ("1 0 0 512 0 1 0 80 0 0 1 300", "Is its unit right?"),
-        ("1 0 0 0 0 1 0 0 0 0 1 0 .5 .1 .3 1", "is .5 .1 .3 1; expected: 0 0 0 1; is it tran"),
-        ("1 0 0 nan 0 1 0 .1 0 0 1 .3", "row 1 of column 'x' is 'nan'; expected: a number"),
-        ("", "it is empty"),
-    ],
-)
-def test_a_bad_table_is_refused(text, message, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "poses.txt").write_text(text)
-    main(["calibrate", "--poses", "poses.txt", "--targets", "poses.txt", "--out", "out"])
-    assert message in capsys.readouterr().err
-
-
 def test_decimal_commas_and_numbers_too_many_are_named(tmp_path):
     (path := tmp_path / "poses.txt").write_text("1,5 " * 7)
     with pytest.raises(InvalidFile, match="it has 14 numbers .*; does it have decimal commas?"):
