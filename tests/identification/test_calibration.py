@@ -57,6 +57,13 @@ def test_a_pattern_is_learned_from_so_many_rows_at_most(robot, geared, monkeypat
         assert {*map(tuple, inputs)} <= {*map(tuple, geared.joints)}
 
 
+def test_what_no_process_explained_gets_none_from_a_few_more_rows(robot, geared):
+    last = calibrate(robot.arm, (JOINT_ERRORS,), geared[:35])
+    again = calibrate(robot.arm, (JOINT_ERRORS,), geared, last=last)
+    assert last.pattern is None and again.pattern is None
+    assert len(again.estimate.weights) == len(geared)
+
+
 def test_a_restored_calibration_knows_which_joints_were_held(robot, geared):
     last = np.arange(6) == 5
     calibration = calibrate(robot.arm, (held(OFFSETS, last),), geared)
