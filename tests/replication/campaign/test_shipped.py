@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from replication.campaign import DOUBLE, TWO_MAPS, tune
+from replication.campaign import DOUBLE, TWO_MAPS, lengths, tune
 from replication.campaign.drawing import draw
 from replication.campaign.factors import rows
 from replication.campaign.halfway import halfway
@@ -11,6 +11,7 @@ from replication.campaign.measuring import measure_variant
 from replication.campaign.setups import planned
 from replication.campaign.ship import ship
 from replication.campaign.untrained import untrained
+from replication.campaign.variants import variants
 from replication.config import CAMPAIGN, DESIGN, IMPROVED, RITTER
 from replication.running import write
 from tests.conftest import ROOT, changed
@@ -106,6 +107,23 @@ def test_the_best_settings_leave_the_same_errors_again(
     ] * ("rough" not in name)
     assert not any(start for *_, start in begun[:2])
     assert all(start == table.loc[0, [*start]].to_dict() for *_, start in begun[2:])
+
+
+def test_every_variant_has_its_lengths_and_more_until_both_errors_are_reached(
+    study, searches, tmp_path
+):
+    for name, variant in variants(study).items():
+        for setup in (0, 1):
+            own, found = {*lengths(variant, setup)}, {*shipped(name, setup).get("iterations", ())}
+            assert own <= found <= own | {*variant.until_reached}
+    table, plan = shipped(DOUBLE, 3), {"rungs": (600,), "runs": 2}
+    searches(pd.concat([table[:2], table[1:2].assign(iterations=600)]))
+    few, goal = changed(study, campaign=plan, search={"fresh": 1}), tmp_path / f"{IMPROVED}.csv"
+    for larger, more in ((0.9, []), (1e-6, [600])):
+        shares = {"position_share": 1e-6, "orientation_share": larger}
+        write(goal, shipped(IMPROVED, 3).assign(**shares))
+        found = measure_variant(few, ROOT / DESIGN, 3, 0, DOUBLE, [goal])
+        assert found["iterations"].tolist() == [200, 500, *more]
 
 
 def test_the_search_in_between_begins_where_the_shorter_one_ended(study, searches, monkeypatch):

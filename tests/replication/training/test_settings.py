@@ -14,7 +14,6 @@ from replication.training import (
     Trials,
     Tuned,
     Tuning,
-    trained,
     worse,
 )
 from tests.replication.campaign.planted import Planted, valley
@@ -78,17 +77,6 @@ def test_a_learner_has_the_settings_of_the_reference_study_alone(study, settings
     assert others.schedule.initial_width[0] != learner.schedule.initial_width[0]
     with pytest.raises(RecalibError, match="no settings of improved for 201 iterations; try: make"):
         Tuned(study, settings).learner("improved", 201, 1)
-
-
-def test_every_training_of_a_study_needs_settings(study):
-    needed = trained(study)
-    plan = study.experiments
-    for learners in (plan.learners, plan.own):
-        pairs = {(name, length) for name, lengths in learners.items() for length in lengths}
-        assert pairs <= needed
-    assert {*study.real.twin.items(), *study.benchmark.papers.items()} <= needed
-    assert ("improved", plan.iterations) in needed
-    assert {(switch.without, 200) for switch in SWITCHES} <= needed
 
 
 @pytest.mark.parametrize("switch", SWITCHES)
