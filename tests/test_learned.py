@@ -150,8 +150,8 @@ def test_a_file_that_was_tampered_with_is_refused_or_of_use(written, robot, data
 def test_a_file_of_which_one_run_commands_no_number_is_refused(robot, tmp_path, monkeypatch):
     """As where its coefficients are huge."""
     save(tmp_path / "a.npz", PolynomialLearner(1, runs=2), robot)
-    commands = np.array([np.zeros((1, 6)), np.full((1, 6), np.inf)])
-    monkeypatch.setattr(PolynomialLearner, "command", lambda learner, desired: commands)
+    beyond = np.array([0, np.inf])[:, None, None]
+    monkeypatch.setattr(PolynomialLearner, "command", lambda learner, desired: desired + beyond)
     with pytest.raises(InvalidFile):
         load(tmp_path / "a.npz", robot)
 

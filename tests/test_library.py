@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
@@ -92,185 +92,173 @@ def test_an_example_needs_the_public_names_alone(path):
             assert node.attr in recalib.__all__
 
 
-def wrong_calls() -> dict[str, Callable[[], object]]:
-    """Calls with an argument of another kind, shape or size, by their name."""
+def wrong_calls() -> Iterator[tuple[Callable[..., object], tuple]]:
+    """Calls with an argument of another kind, shape or size, and these arguments."""
     urdf = find_urdf("ur10_robot.urdf")
     home = {"shoulder_lift_joint": -1.4, "elbow_joint": 2.1, "wrist_1_joint": -2.9}
     home |= {"shoulder_pan_joint": 0.0, "wrist_2_joint": -1.57, "wrist_3_joint": 0.0}
-    robot = recalib.load_robot(urdf, "tool0", home, [0.3] * 3, [0.6] * 3)
+    ranges = [0.3] * 3, [0.6] * 3
+    load = partial(recalib.load_robot, urdf, "tool0")
+    robot = load(home, *ranges)
     controller, pair, rules = recalib.Controller(robot), (1.0, 1.0), recalib.IMPROVED
     good = {"initial_width": 2.0, "initial_rate": 0.9, "final_rate": 0.5}
     good["final_widths"] = {"position": pair, "orientation": pair}
     schedule = recalib.Schedule(**good)
     learner = recalib.HierarchicalLearner(rules, schedule)
-    plant = recalib.Plant(controller, recalib.apply(robot, []))
+    plant, moved = (recalib.Plant(controller, recalib.apply(robot, [])) for _ in range(2))
+    moved.execute(np.zeros((2, 1, 6)))
     poses, joints, chain = np.zeros((1, 2, 6)), np.zeros((3, 6)), recalib.Chain.of(robot.arm)
     own = recalib.ExternalRobot(robot.workspace, lambda pose: pose)
     arrays = recalib.Observations(joints, joints[:, :3])
-    moved = recalib.Plant(controller, recalib.apply(robot, []))
-    moved.execute(np.zeros((2, 1, 6)))
     postures = np.random.default_rng(0).uniform(-1, 1, (12, 6)) + robot.home
     measured = recalib.Observations(postures, robot.arm.forward(postures))
     found = recalib.GeometricLearner.identify(robot.arm, measured)
-    others = {"a string": "2", "nothing": None, "words": ["a", "b"], "nan": np.nan, "zero": 0}
-    calls = {
-        f"a schedule whose {key} is {name}": partial(recalib.Schedule, **good | {key: value})
-        for key in good
-        for name, value in others.items()
-    }
-    for name, other in {"nothing": None, "an arm": robot.arm, "a number": 3}.items():
-        calls |= {
-            f"a controller of {name}": partial(recalib.Controller, other),
-            f"a plant behind {name}": partial(recalib.Plant, other, robot.arm),
-            f"{name} for rules": partial(recalib.HierarchicalLearner, other, schedule),
-            f"{name} for rules of units": partial(recalib.RadialLearner, other, schedule),
-            f"{name} for a schedule": partial(recalib.HierarchicalLearner, rules, other),
-            f"a learner behind {name}": partial(recalib.HybridLearner, other),
-            f"{name} observed": partial(recalib.HybridLearner.identify, robot.arm, other),
-            f"{name} trained": partial(recalib.train, plant, other, poses, poses, [1]),
-            f"{name} that moves": partial(recalib.ExternalRobot, robot.workspace, other),
-            f"{name} as damage": partial(recalib.apply, robot, [other]),
-            f"{name} saved": partial(recalib.save, Path("never.npz"), learner, other),
-            f"{name} loaded": partial(recalib.load, Path("never.npz"), other),
-            f"a workspace about {name}": partial(recalib.Workspace, other, np.ones(6)),
-            f"a workspace as large as {name}": partial(recalib.Workspace, np.eye(4), other),
-            f"noise of {name}": partial(recalib.Noise, other),
-            f"rows of {name}": partial(recalib.arm_of_table, other),
-            f"gains of {name}": partial(recalib.information_gains, other, joints),
-            f"frames from {name}": partial(recalib.initial_frames, robot.arm, other),
-        }
-    kinds = {"nothing": None, "a robot": robot, "a number": 3, "words": ["a", "b"], "text": "arm"}
-    ranges = [0.3] * 3, [0.6] * 3
-    for name, other in kinds.items():
-        calls |= {
-            f"a chain of {name}": partial(recalib.Chain.of, other),
-            f"a chain of {name} at its side": partial(recalib.Chain.side_by_side, [other]),
-            f"angles of {name}": partial(chain.forward, other),
-            f"poses of {name}": partial(chain.solve, other, joints),
-            f"a start of {name}": partial(chain.solve, np.ones((3, 4, 4)), other),
-            f"commands of {name}": partial(plant.execute, other),
-            f"moves of {name}": partial(plant.achieve, other),
-            f"moves of one's own of {name}": partial(own.execute, other),
-            f"targets of {name}": partial(controller.targets, other),
-            f"coordinates of {name}": partial(robot.workspace.to_poses, other),
-            f"arms of {name}": partial(recalib.Plant, controller, [other]),
-            f"generators of {name}": partial(
-                recalib.Plant, controller, robot.arm, recalib.Disturbances(), [other]
-            ),
-            f"a home of {name}": partial(recalib.load_robot, urdf, "tool0", other, *ranges),
-            f"a range of {name}": partial(
-                recalib.load_robot, urdf, "tool0", home, other, ranges[1]
-            ),
-            f"shapes of {name}": partial(recalib.load_shapes, other, urdf),
-            f"a row named {name}": partial(
-                recalib.arm_of_table, [recalib.Row(other), recalib.Row(other)]
-            ),
-            f"a joint that slides by {name}": partial(
-                recalib.arm_of_table, [recalib.Row("a", slides=other)]
-            ),
-            f"measured at {name}": partial(recalib.train, plant, learner, poses, poses, other),
-            f"cells of {name}": partial(cells_of, other),
-            f"a box of {name}": partial(
-                recalib.LiveSettings, box=np.eye(3) if other is None else other
-            ),
-            f"a live arm of {name}": partial(
-                recalib.calibrate_live, object, other, "never.csv", recalib.LiveSettings()
-            ),
-            f"live settings of {name}": partial(
-                recalib.calibrate_live, object, robot.arm, "never.csv", other
-            ),
-            f"a station of {name}": partial(
-                recalib.calibrate_live, other, robot.arm, "never.csv", recalib.LiveSettings()
-            ),
-            f"progress to {name}": partial(
-                recalib.calibrate, robot.arm, postures, measured.measured, on_progress=other
-            ),
-            f"a distance of {name}": partial(
-                recalib.calibrate,
-                *(robot.arm, postures),
-                sockets=["a", "b"] * 6,
-                distances={("a", "b"): other},
-            ),
-            f"a program of {name}": partial(
-                recalib.ProgramStation, [] if isinstance(other, list) else other
-            ),
-            f"learned by one that is to command {name}": partial(learner.command, other),
-            f"learned from {name}": partial(learner.learn, other, plant.execute, 0.1),
-            f"a polynomial of {name}": partial(recalib.PolynomialLearner(1).command, other),
-            f"a process of {name}": partial(recalib.GaussianProcessLearner().command, other),
-            f"units of {name}": partial(recalib.RadialLearner(rules, schedule).command, other),
-            f"a calibration of {name}": partial(
-                recalib.GeometricLearner(controller).learn, other, plant.execute, 0.1
-            ),
-        }
-    for key in ("speed", "span", "most", "floor", "error"):
-        for name, other in {"text": "fast", "words": ["a"], "nan": np.nan}.items():
-            calls[f"a live {key} of {name}"] = partial(recalib.LiveSettings, **{key: other})
-    for shape in ((2, 6), (1, 2, 5), (1, 2, 7), (6,), (2, 1, 2, 6)):
-        calls[f"commands of shape {shape}"] = partial(plant.execute, np.zeros(shape))
-        calls[f"moves of shape {shape}"] = partial(plant.achieve, np.zeros(shape))
-    for size in (5, 7):
-        calls[f"{size} offsets"] = partial(recalib.Chain.of, robot.arm, np.zeros(size))
-    return calls | {
-        "no run": partial(recalib.GaussianProcessLearner, runs=0),
-        "half a run": partial(recalib.PolynomialLearner, 1, runs=0.5),
-        "a robot identified": partial(recalib.HybridLearner.identify, robot, arrays),
-        "a shift in words": partial(recalib.EncoderShift, "elbow_joint", "3 deg"),
-        "no shift": partial(recalib.EncoderShift, "elbow_joint", None),
-        "joints of another arm": partial(recalib.information_gains, found, joints[:, :5]),
-        "one posture for many": partial(recalib.information_gains, found, joints[0]),
-        "the learner before the plant": partial(recalib.train, learner, plant, poses, poses, [1]),
-        "a damage that is no list": partial(recalib.apply, robot, recalib.Noise()),
-        "no arms": partial(recalib.Plant, controller, []),
-        "no chains": partial(recalib.Chain.side_by_side, []),
-        "no generators": partial(recalib.Plant, controller, robot.arm, recalib.Disturbances()),
-        "other runs than before": partial(moved.execute, np.zeros((3, 1, 6))),
-        "fewer runs than before": partial(moved.execute, np.zeros((1, 1, 6))),
-        "fewer runs than arms": partial(
-            recalib.Plant(controller, [recalib.apply(robot, [])] * 3).execute,
-            np.zeros((2, 1, 6)),
-        ),
-        "poses for others": partial(recalib.position_error, np.ones((3, 4, 4)), np.ones((2, 4, 4))),
-        "limits the wrong way round": partial(
-            *(recalib.load_robot, urdf, "tool0", home, *ranges), limits={"elbow_joint": (3, -3)}
-        ),
-        "limits of one end": partial(
-            *(recalib.load_robot, urdf, "tool0", home, *ranges), limits={"elbow_joint": 3}
-        ),
-        "a tool beyond, in words": partial(
-            *(recalib.load_robot, urdf, "tool0", home, *ranges), beyond="10 cm"
-        ),
-        "a word with a NUL": partial(recalib.ProgramStation, ["a\0b"]),
-        "half a measurement": partial(recalib.train, plant, learner, poses, poses, [0.5]),
-        "one pose for many": partial(controller.inverse, np.eye(4)),
-        "five coordinates": partial(robot.workspace.to_poses, np.zeros(5)),
-        "a point for a pose": partial(recalib.position_error, np.zeros(3), np.zeros(3)),
-        "a mirrored workspace": partial(recalib.Workspace, np.eye(4), -np.ones(6)),
-        "half a cell": partial(recalib.Rules, *[True] * 4, supernet=(1.5, 3, 3)),
-        "a word for a switch": partial(recalib.Rules, "no", True, True, True),
-        "a narrow field": partial(recalib.RadialLearner, rules, schedule, -1.0),
-        "a row too few": partial(recalib.Observations, joints, joints[:2, :3]),
-        "rates of two runs for three": partial(
-            recalib.HierarchicalLearner,
-            rules,
-            recalib.Schedule(**good | {"initial_rate": np.array([0.9, 0.8])}),
-            runs=3,
-        ),
-        "frames of the wrong arm": partial(recalib.initial_frames, robot, arrays),
-    }
+    live = partial(recalib.calibrate_live, object, robot.arm, "never.csv")
+    balls = {"sockets": ["a", "b"] * 6}
+
+    def each(others: list, *calls: Callable[[object], object]) -> Iterator[tuple]:
+        return ((call, (other,)) for call in calls for other in others)
+
+    for key in good:
+        yield from each(
+            ["2", None, ["a", "b"], np.nan, 0],
+            lambda it, key=key: recalib.Schedule(**good | {key: it}),
+        )
+    yield from each(
+        [None, robot.arm, 3],
+        recalib.Controller,
+        recalib.arm_of_table,
+        recalib.HybridLearner,
+        recalib.Noise,
+        lambda it: recalib.Plant(it, robot.arm),
+        lambda it: recalib.HierarchicalLearner(it, schedule),
+        lambda it: recalib.RadialLearner(it, schedule),
+        lambda it: recalib.HierarchicalLearner(rules, it),
+        lambda it: recalib.HybridLearner.identify(robot.arm, it),
+        lambda it: recalib.train(plant, it, poses, poses, [1]),
+        lambda it: recalib.ExternalRobot(robot.workspace, it),
+        lambda it: recalib.apply(robot, [it]),
+        lambda it: recalib.save(Path("never.npz"), learner, it),
+        lambda it: recalib.load(Path("never.npz"), it),
+        lambda it: recalib.Workspace(it, np.ones(6)),
+        lambda it: recalib.Workspace(np.eye(4), it),
+        lambda it: recalib.information_gains(it, joints),
+        lambda it: recalib.initial_frames(robot.arm, it),
+    )
+    yield from each(
+        [None, robot, 3, ["a", "b"], "arm"],
+        recalib.Chain.of,
+        chain.forward,
+        plant.execute,
+        plant.achieve,
+        own.execute,
+        controller.targets,
+        robot.workspace.to_poses,
+        cells_of,
+        learner.command,
+        recalib.PolynomialLearner(1).command,
+        recalib.GaussianProcessLearner().command,
+        recalib.RadialLearner(rules, schedule).command,
+        live,
+        lambda it: recalib.Chain.side_by_side([it]),
+        lambda it: chain.solve(it, joints),
+        lambda it: chain.solve(np.ones((3, 4, 4)), it),
+        lambda it: recalib.Plant(controller, [it]),
+        lambda it: recalib.Plant(controller, robot.arm, recalib.Disturbances(), [it]),
+        lambda it: load(it, *ranges),
+        lambda it: load(home, it, ranges[1]),
+        lambda it: recalib.load_shapes(it, urdf),
+        lambda it: recalib.arm_of_table([recalib.Row(it), recalib.Row(it)]),
+        lambda it: recalib.arm_of_table([recalib.Row("a", slides=it)]),
+        lambda it: recalib.train(plant, learner, poses, poses, it),
+        lambda it: recalib.LiveSettings(box=np.eye(3) if it is None else it),
+        lambda it: recalib.calibrate_live(object, it, "never.csv", recalib.LiveSettings()),
+        lambda it: recalib.calibrate_live(it, robot.arm, "never.csv", recalib.LiveSettings()),
+        lambda it: recalib.calibrate(robot.arm, postures, measured.measured, on_progress=it),
+        lambda it: recalib.calibrate(robot.arm, postures, **balls, distances={("a", "b"): it}),
+        lambda it: recalib.ProgramStation([] if isinstance(it, list) else it),
+        lambda it: learner.learn(it, plant.execute, 0.1),
+        lambda it: recalib.GeometricLearner(controller).learn(it, plant.execute, 0.1),
+    )
+    rest, text = partial(recalib.Rules, True, True, True, True), ["fast", ["a"], np.nan]
+    for call, keys, values in (
+        (recalib.LiveSettings, "error span speed", [*text, np.inf, 0.0, -1e-3]),
+        (recalib.LiveSettings, "most", [*text, 9]),
+        (recalib.LiveSettings, "floor", text),
+        (rest, "centres spread rate", ["cosine"]),
+        (rest, "metric width_units", [(1, 1, 1), (1, 1, 1, 1, 1, 0)]),
+        (rest, "supernet subnet", [(1.5, 3, 3), (3, 0, 3)]),
+        (rest, "dimensions", [4]),
+        (partial(recalib.Schedule, **good), "initial_rate", [0, 1.01]),
+        (recalib.Noise, "position_noise orientation_noise", [-1e-4, np.nan]),
+        (recalib.Repeatability, "repeatability", [np.inf]),
+    ):
+        for key in keys.split():
+            yield from each(values, lambda it, call=call, key=key: call(**{key: it}))
+    widths = [(0, 1), (1, -0.1), (1, [1, np.nan])]
+    yield from each(widths, lambda it: recalib.Schedule(1.0, {"pose": it}, 0.5, 0.1))
+    yield from each([1.1, "a"], lambda it: recalib.Outliers(it, 0.05))
+    yield from each([-0.05, None], lambda it: recalib.Outliers(0.1, it))
+    shapes = [np.zeros(shape) for shape in ((2, 6), (1, 2, 5), (1, 2, 7), (6,), (2, 1, 2, 6))]
+    yield from each(shapes, plant.execute, plant.achieve)
+    yield from each([np.zeros(5), np.zeros(7)], lambda it: recalib.Chain.of(robot.arm, it))
+    three = recalib.Plant(controller, [recalib.apply(robot, [])] * 3)
+    two_rates = recalib.Schedule(**good | {"initial_rate": np.array([0.9, 0.8])})
+    for call in (
+        lambda: recalib.GaussianProcessLearner(runs=0),
+        lambda: recalib.PolynomialLearner(1, runs=0.5),
+        lambda: recalib.PolynomialLearner(3),
+        lambda: recalib.HybridLearner.identify(robot, arrays),
+        lambda: recalib.EncoderShift("elbow_joint", "3 deg"),
+        lambda: recalib.EncoderShift("elbow_joint", None),
+        lambda: recalib.information_gains(found, joints[:, :5]),
+        lambda: recalib.information_gains(found, joints[0]),
+        lambda: recalib.train(learner, plant, poses, poses, [1]),
+        lambda: recalib.apply(robot, recalib.Noise()),
+        lambda: recalib.Plant(controller, []),
+        lambda: recalib.Chain.side_by_side([]),
+        lambda: recalib.Plant(controller, robot.arm, recalib.Disturbances()),
+        lambda: moved.execute(np.zeros((3, 1, 6))),
+        lambda: moved.execute(np.zeros((1, 1, 6))),
+        lambda: three.execute(np.zeros((2, 1, 6))),
+        lambda: recalib.position_error(np.ones((3, 4, 4)), np.ones((2, 4, 4))),
+        lambda: load(home, *ranges, limits={"elbow_joint": (3, -3)}),
+        lambda: load(home, *ranges, limits={"elbow_joint": 3}),
+        lambda: load(home, *ranges, beyond="10 cm"),
+        lambda: recalib.ProgramStation(["a\0b"]),
+        lambda: recalib.train(plant, learner, poses, poses, [0.5]),
+        lambda: controller.inverse(np.eye(4)),
+        lambda: robot.workspace.to_poses(np.zeros(5)),
+        lambda: recalib.position_error(np.zeros(3), np.zeros(3)),
+        lambda: recalib.Workspace(np.eye(4), -np.ones(6)),
+        lambda: recalib.Workspace(np.eye(4), np.full(6, 0.1), "quaternion"),
+        lambda: recalib.arm_of_table([]),
+        lambda: recalib.arm_of_table([recalib.Row("a")], "craig"),
+        lambda: recalib.arm_of_table([recalib.Row("a"), recalib.Row("a")]),
+        lambda: recalib.arm_of_table([recalib.Row("a", alpha=np.nan)]),
+        lambda: recalib.Rules("no", True, True, True),
+        lambda: recalib.RadialLearner(rules, schedule, -1.0),
+        lambda: recalib.Observations(joints, joints[:2, :3]),
+        lambda: recalib.HierarchicalLearner(rules, two_rates, runs=3),
+        lambda: recalib.initial_frames(robot, arrays),
+    ):
+        yield call, ()
 
 
-def is_refused(call: Callable[[], object]) -> bool:
+def is_refused(call: Callable[..., object], arguments: tuple) -> bool:
     """Whether a call is refused with what was expected."""
     try:
-        call()
+        call(*arguments)
     except recalib.RecalibError as error:
         return "expected: " in str(error)
     return False
 
 
 def test_a_wrong_call_is_refused_with_what_was_expected():
-    assert not [name for name, call in wrong_calls().items() if not is_refused(call)]
+    taken = [wrong for wrong in wrong_calls() if not is_refused(*wrong)]
+    assert not [(getattr(call, "__code__", call), arguments) for call, arguments in taken], (
+        "the code of a lambda has its line"
+    )
 
 
 MISUSE = """

@@ -40,11 +40,6 @@ def test_what_is_written_reads_as_the_very_same_number(quantity, value):
     assert quantity.read(quantity.write(value)) == value
 
 
-@pytest.mark.parametrize("text", ["4 cm", "-2 cm", "0.2 mm", "12 m", "200 m"])
-def test_round_lengths_are_written_as_people_write_them(text):
-    assert LENGTH.write(LENGTH.read(text)) == text
-
-
 @pytest.mark.parametrize(
     ("name", "taken", "refused"),
     [

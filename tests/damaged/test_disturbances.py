@@ -121,21 +121,6 @@ def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, com
     assert np.array_equal(both.achieved[1:], alone.achieved)
 
 
-@pytest.mark.parametrize(
-    ("kind", "sizes", "message"),
-    [
-        (Noise, (-1e-4, 0.0), "position_noise is -0.0001; expected: a length from 0 to 10 cm"),
-        (Noise, (0.0, np.nan), "Noise.orientation_noise is nan"),
-        (Repeatability, (np.inf,), "Repeatability.repeatability is inf"),
-        (Outliers, (1.1, 0.05), "outlier_share is 1.1; expected: a number from 0 to 1"),
-        (Outliers, (0.1, -0.05), "Outliers.outlier_size is -0.05"),
-    ],
-)
-def test_impossible_sizes_are_refused_by_name(kind, sizes, message):
-    with pytest.raises(InvalidSetting, match=message):
-        kind(*sizes)
-
-
 @pytest.fixture
 def few() -> np.ndarray:
     few = np.random.default_rng(3).uniform(-0.8, 0.8, (2, 3, 6))

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.faults.project import Project, expect, kill, outcome_of
 from tests.faults.yard import Yard, at_work, digests_of, expect_no_strays
-from tests.project import Project, expect, kill, outcome_of
 
 RESULTS = Path("results/studies/faults")
 CHAIN = 6  # times that everything is killed before a run may end

@@ -9,7 +9,7 @@ from pathlib import Path
 import psutil
 
 from recalib.files.storage import is_temporary
-from tests.project import Project, expect, wait_until
+from tests.faults.project import Project, expect, wait_until
 
 STUDY = "--configfile", "tests/faults/study.yaml"
 # Folders of files that differ between runs: identities of rows, names of folders, times.

@@ -5,7 +5,7 @@ from scipy.interpolate import CubicSpline
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification import identify_by_consensus
-from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, Fault, faults
+from recalib.identification.checks.sequence import DRIFT, LAG, Fault, faults
 from recalib.identification.model import ErrorModel
 from tests.identification.real import Real
 
@@ -29,7 +29,7 @@ class Session:
     """Rows of a UR10 in the order in which they were measured, with a fault.
 
     Args:
-        kind, size: of the fault: a lag [steps from row to row], a jump or a drift [m]; or none.
+        kind, size: of the fault: a lag [steps from row to row] or a drift [m]; or none.
         on_a_path: whether rows lie along a path, or anywhere.
         times: of the rows [s], if they have any: a lag is in seconds then.
     """
@@ -45,30 +45,23 @@ class Session:
         rows: int = ROWS,
         times: np.ndarray | None = None,
     ):
-        self._arm, self._kind, self._size = arm, kind, size
-        self._real, self._rng = Real(arm, seed), np.random.default_rng([seed, 7])
-        self._direction = self._rng.standard_normal(3)
-        self._direction /= np.linalg.norm(self._direction)
-        joints = self._postures(max(rows // 6, 4) if on_a_path else rows)
+        self._arm, rng = arm, np.random.default_rng([seed, 7])
+        direction = rng.standard_normal(3)
+        direction /= np.linalg.norm(direction)
+        count = max(rows // 6, 4) if on_a_path else rows
+        joints = MIDDLE + rng.uniform(-AROUND, AROUND, (count, 6))
         if on_a_path:
             along = CubicSpline(np.linspace(0, 1, len(joints)), joints)
             joints = along(np.linspace(0, 1, rows))
         clock = np.arange(rows) if times is None else times
         speeds = np.diff(joints, axis=0, prepend=joints[:1])
         speeds[1:] /= np.diff(clock)[:, None]
-        poses = self._real.poses(joints - size * (kind == LAG) * speeds)
-        poses[:, :3, 3] += self._shifts(clock / clock[-1])
+        poses = Real(arm, seed).poses(joints - size * (kind == LAG) * speeds)
+        if kind == DRIFT:
+            poses[:, :3, 3] += size * np.outer(clock / clock[-1], direction)
         measured = poses[:, :3, 3] if positions else poses
         self.observations = Observations(joints, measured, times=times)
         self._frames = initial_frames(arm, self.observations)
-
-    def _postures(self, count: int) -> np.ndarray:
-        return MIDDLE + self._rng.uniform(-AROUND, AROUND, (count, 6))
-
-    def _shifts(self, times: np.ndarray) -> np.ndarray:
-        """Shifts (n, 3) [m] of the instrument when parts (n,) of the rows are measured."""
-        parts = {JUMP: times >= 0.4, DRIFT: times}.get(self._kind, 0 * times)
-        return self._size * np.outer(parts, self._direction)
 
     def find_faults(self) -> list[Fault]:
         """Faults that the order of the rows shows."""

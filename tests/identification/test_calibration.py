@@ -45,16 +45,19 @@ def test_an_arm_that_cannot_reach_its_pose_keeps_no_other_from_it(controller, ca
     assert np.allclose(calibrations[1].forward(angles[1]), poses[1], atol=1e-8)
 
 
-def test_no_poses_need_no_angles(calibrations):
-    assert angles_for(calibrations, np.empty((2, 0, 4, 4)), np.empty((2, 0, 6))).shape == (2, 0, 6)
-
-
 def test_a_pattern_is_learned_from_so_many_rows_at_most(robot, geared, monkeypatch):
     for most, used in ((40, 40), (30, 30)):
         monkeypatch.setattr(module, "MOST", most)
         inputs = calibrate(robot.arm, (OFFSETS,), geared).pattern.state()["inputs"]
         assert len(np.unique(inputs, axis=0)) == used
         assert {*map(tuple, inputs)} <= {*map(tuple, geared.joints)}
+
+
+def test_what_no_process_explained_gets_none_from_a_few_more_rows(robot, geared):
+    last = calibrate(robot.arm, (JOINT_ERRORS,), geared[:35])
+    again = calibrate(robot.arm, (JOINT_ERRORS,), geared, last=last)
+    assert last.pattern is None and again.pattern is None
+    assert len(again.estimate.weights) == len(geared)
 
 
 def test_a_restored_calibration_knows_which_joints_were_held(robot, geared):

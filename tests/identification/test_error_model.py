@@ -45,13 +45,6 @@ def _turn(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return np.concatenate([(end - start)[:, :3, 3], turns], axis=1)
 
 
-def test_zero_parameters_are_the_nominal_arm(robot):
-    angles = np.random.default_rng(3).uniform(-1, 1, (5, 6))
-    model = ErrorModel(robot.arm, JOINT_WAVES)
-    found = model.predict(np.zeros_like(model.deviations), angles)
-    assert np.allclose(found, robot.arm.forward(angles))
-
-
 @pytest.mark.parametrize(
     ("parameters", "damage"),
     [

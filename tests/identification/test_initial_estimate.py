@@ -17,7 +17,15 @@ from recalib import (
     initial_frames,
     load_arm,
 )
-from recalib.identification import BLOCKWISE, GEOMETRIC, OPEN, identify, turns_by_poses, validate
+from recalib.identification import (
+    BLOCKWISE,
+    GEOMETRIC,
+    OPEN,
+    NoInitialEstimate,
+    identify,
+    turns_by_poses,
+    validate,
+)
 from recalib.identification.closed_forms import _smallest
 from recalib.identification.initial_estimate import _is_open
 from recalib.identification.model import HELD, NO_ERRORS, ErrorModel
@@ -137,6 +145,9 @@ def test_a_socket_beyond_the_known_ones_is_refused(panda):
     observations = Observations(np.zeros((3, 7)), sockets=np.zeros(3, dtype=int))
     with pytest.raises(BadMeasurement, match="socket of measurement 0"):
         identify(ErrorModel(panda, OFFSETS), observations)
+    two = Observations(np.zeros((3, 7)), sockets=np.array([0, 0, 1]))
+    with pytest.raises(NoInitialEstimate, match="3 rows; expected: at least 4"):
+        initial_frames(panda, two)
 
 
 @pytest.mark.parametrize("text", [SCARA, GANTRY], ids=["SCARA", "gantry"])

@@ -17,21 +17,13 @@ from tests.identification.real import NOISE, Real, geometry_of
 
 
 @pytest.mark.parametrize(  # each pair of them at least once
-    ("kind", "size", "rel", "on_a_path", "positions"),
-    [
-        (LAG, 0.05, 0.1, True, True),
-        (LAG, 0.05, 0.1, False, False),
-        (LAG, -0.02, 0.1, True, False),
-        (LAG, -0.02, 0.1, False, True),
-        (JUMP, 1e-3, 0.2, True, True),
-        (JUMP, 1e-3, 0.2, False, False),
-    ],
+    ("size", "on_a_path", "positions"),
+    [(0.05, True, True), (0.05, False, False), (-0.02, True, False), (-0.02, False, True)],
 )
 @few_folds()
-def test_a_fault_is_named_by_its_size_and_its_row(kind, size, rel, on_a_path, positions, ur10):
-    fault, *_ = Session(ur10, 1, kind, size, positions, on_a_path).find_faults()
-    assert fault.kind == kind and fault.size == pytest.approx(size, rel=rel)
-    assert kind != JUMP or abs(fault.row - 2 * ROWS // 5) <= 1
+def test_a_lag_is_named_by_its_size(size, on_a_path, positions, ur10):
+    fault, *_ = Session(ur10, 1, LAG, size, positions, on_a_path).find_faults()
+    assert fault.kind == LAG and fault.size == pytest.approx(size, rel=0.1)
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -12,7 +12,6 @@ from recalib import (
     InvalidSetting,
     calibrate_arm,
     load_correction,
-    read_description,
 )
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.laboratory.plausibility.mistakes import Mistaken
@@ -246,19 +245,3 @@ def test_what_is_stated_of_wear_bounds_what_rows_do_not_determine(arm, folder):
     assert model.deviations[model.offset_columns] == pytest.approx(np.radians(0.5))
     links = model.twists(model.deviations)[1:]
     assert links[:, :3] == pytest.approx(1e-4) and links[:, 3:] == pytest.approx(np.radians(0.01))
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ('[target]\nposition = ["0 mm +- 0 mm", "0 mm", "0 mm"]', "expected: more than zero"),
-        ('[target]\nposition = ["0 mm +- two", "0 mm", "0 mm"]', "expected: a length in mm"),
-        ('[wear]\nencoders = "-1 deg"', "expected: more than zero"),
-        ('[wear]\nlinks = "2 mm"', "expected: a length and an angle"),
-        ('[wear]\ngears = "2 mm"', "expected: encoders = "),
-    ],
-)
-def test_what_is_no_deviation_is_refused(text, message, tmp_path):
-    (tmp_path / "known.toml").write_text(text)
-    with pytest.raises(InvalidFile, match=message):
-        read_description(tmp_path / "known.toml")

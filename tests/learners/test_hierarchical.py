@@ -6,9 +6,7 @@ import pytest
 from recalib import (
     IMPROVED,
     HierarchicalLearner,
-    InvalidSetting,
     Outcome,
-    RecalibError,
     Rules,
     Schedule,
 )
@@ -112,35 +110,6 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, conve
             for k, l in product(range(6), range(4)):
                 assert np.allclose(held["theta"][k, l], expected_map.theta[k, l], atol=1e-12)
                 assert np.allclose(held["jacobian"][k, l], expected_map.A[k, l], atol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("convention", "message"),
-    [
-        ({"centres": "corners"}, "unknown centres of cells 'corners'; expected: boxes or faces"),
-        ({"spread": "squares"}, "unknown spread .* 'squares'; expected: logarithms or widths"),
-        ({"rate": "cosine"}, "unknown fall .* 'cosine'; expected: exponential or linear"),
-        ({"dimensions": 4}, "dimensions is 4; expected: 3 or 6"),
-        ({"metric": (1, 1, 1)}, "metric is .*; expected: six numbers above 0"),
-        ({"metric": (1, 1, 1, 1, 1, 0)}, "metric is .*; expected: six numbers above 0"),
-        ({"width_units": (1, 1, 1)}, "width_units is .*; expected: six numbers above 0"),
-    ],
-)
-def test_an_impossible_convention_is_refused(convention, message):
-    with pytest.raises(RecalibError, match=message):
-        Rules(True, True, True, True, **convention)
-
-
-@pytest.mark.parametrize(
-    ("widths", "rate"),
-    [((0, 1), 0.5), ((1, -0.1), 0.5), ((1, 1), 0), ((1, 1), 1.01), ((1, [1, np.nan]), 0.5)],
-)
-def test_impossible_widths_and_rates_are_refused(widths, rate):
-    with pytest.raises(
-        InvalidSetting,
-        match=r"(final_widths|initial_rate) is .*expected: (above 0|an array of finite)",
-    ):
-        Schedule(1.0, {"pose": widths}, rate, 0.1)
 
 
 def improved(runs=1):

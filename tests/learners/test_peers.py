@@ -9,11 +9,9 @@ from recalib import (
     EncoderShift,
     GaussianProcessLearner,
     GeometricLearner,
-    InvalidSetting,
     LinkShortening,
     Outcome,
     Plant,
-    PolynomialLearner,
     UnknownName,
     apply,
     load_robot,
@@ -103,11 +101,6 @@ def test_the_hybrid_learns_what_no_geometry_explains(controller, robot):
     )
     assert geometric[1] > 0.1
     assert max(hybrid) < 0.01
-
-
-def test_a_polynomial_of_another_degree_is_refused():
-    with pytest.raises(InvalidSetting, match="1 or 2"):
-        PolynomialLearner(3, runs=RUNS)
 
 
 DAMAGES = (

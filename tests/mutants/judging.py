@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 
 from tests.mutants.nearest import Reach, Watch
-from tests.mutants.parts import TOO_LONG
 
 # What is imported before, in this order; nothing here imports the project.
 BEFORE = [
@@ -39,7 +38,7 @@ BEFORE = [
 ]
 OPTIONS = ["-x", "-q", "-n0", "--tb=line", "-p", "no:cacheprovider"]
 OPTIONS += ["-W", "ignore::pytest.PytestAssertRewriteWarning"]  # of what is imported already
-OPTIONS += ["-m", "not slow", *(f"--deselect={test}" for test in TOO_LONG)]
+OPTIONS += ["-m", "not slow"]
 PATIENCE = 60  # seconds of processor time beyond what the tests take; an endless loop is noticed
 NONE = 5  # pytest's exit code if a file has only slow tests
 KILLED, SURVIVED, STILLBORN = "killed", "survived", "stillborn"

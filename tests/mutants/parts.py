@@ -25,25 +25,28 @@ MOVING = (
 )
 EXPERIMENTS = "tests/replication/training", "tests/test_experiment.py"
 # what the jobs compute of small studies
-KEPT = "tests/replication/test_kept.py", "tests/replication/campaign/test_measuring.py"
+KEPT = "tests/replication/test_kept.py", "tests/replication/campaign/test_searches.py"
 PARTS = {
     "experiments": Part(
         ("replication/training", "recalib/loop/training.py"), (*EXPERIMENTS, *KEPT)
     ),
     "campaign": Part(("replication/campaign",), ("tests/replication/campaign", EXPERIMENTS[0])),
-    "scenarios": Part(("replication/scenarios",), ("tests/replication/scenarios", *KEPT)),
-    "mapping": Part(("replication/mapping",), ("tests/replication/mapping", *KEPT)),
+    "scenarios": Part(("replication/scenarios",), ("tests/replication/scenarios", *KEPT[:1])),
+    "mapping": Part(
+        ("replication/mapping",),
+        ("tests/replication/mapping", f"{EXPERIMENTS[0]}/test_poses.py", *KEPT[:1]),
+    ),
     "judgement": Part(
         ("replication/judgement",),
         ("tests/replication/judgement", "tests/replication/campaign/test_table_to_verdict.py"),
     ),
     "learners": Part(
         ("recalib/learners",),
-        ("tests/learners", "tests/test_learned.py", EXPERIMENTS[1]),
+        ("tests/learners", "tests/test_learned.py", "tests/test_library.py", EXPERIMENTS[1]),
     ),
     "identification": Part(
         ("recalib/identification", "recalib/numerics"),
-        ("tests/identification", "tests/test_regression.py"),
+        ("tests/identification", "tests/test_regression.py", "tests/vision/test_hand_eye.py"),
     ),
     "moving": Part(MOVING, ("tests/station", "tests/laboratory")),
     "laboratory": Part(
@@ -56,18 +59,24 @@ PARTS = {
         (
             *("tests/nominal", "tests/damaged", "tests/test_meshes.py"),
             "tests/laboratory/test_mistakes_on_the_command_line.py",
+            "tests/test_library.py",
         ),
     ),
-    "damaged": Part(("recalib/damaged",), ("tests/damaged", EXPERIMENTS[1])),
+    "damaged": Part(
+        ("recalib/damaged",),
+        (
+            *("tests/damaged", EXPERIMENTS[1], "tests/test_library.py"),
+            "tests/replication/config/test_entries.py",
+        ),
+    ),
     "configuration": Part(
         tuple(f"replication/config/{name}.py" for name in ("units", "values", "damages")),
-        ("tests/replication/config", "tests/faults/test_settings.py"),
+        (
+            *("tests/replication/config", "tests/faults/test_settings.py"),
+            "tests/replication/scenarios/test_resolving.py",
+        ),
     ),
 }
-TOO_LONG = (  # tests that take minutes: no mutant meets them
-    "tests/replication/training/test_poses.py::"
-    "test_no_test_pose_of_any_job_was_learned_from_or_searched_with",
-)
 # Not judged: replication/plots, since figures are inspected by eye and their numbers come from
 # judgement; the rest of replication and recalib, which reads and writes files and finds names, so
 # that lists of mistakes test its messages; workflow, which calls functions: whole runs test it.

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recalib import InvalidSetting, Row, UnknownName, arm_of_table
+from recalib import Row, arm_of_table
 from replication.scenarios import nominal_robot
 
 
@@ -54,25 +54,6 @@ def test_the_tool_is_where_the_product_of_the_rows_says(convention, rows, angle)
     assert np.allclose(arm.forward(np.full((1, len(rows)), angle))[0], expected, atol=1e-12)
     assert arm.joints == tuple(row.name for row in rows) and arm.massless
     assert arm.slides.tolist() == [row.slides for row in rows]
-
-
-@pytest.mark.parametrize(
-    ("rows", "convention", "error", "message"),
-    [
-        ([Row("a")], "craig", UnknownName, "'craig'; expected: modified or standard"),
-        ([], "standard", InvalidSetting, "1 to 100"),
-        ([Row("a"), Row("a")], "standard", InvalidSetting, "'a'; expected: another name"),
-        (
-            [Row("a", alpha=np.nan)],
-            "standard",
-            InvalidSetting,
-            "alpha of a is .*NaN.*; expected: an array of finite",
-        ),
-    ],
-)
-def test_a_table_that_makes_no_arm_is_refused(rows, convention, error, message):
-    with pytest.raises(error, match=message):
-        arm_of_table(rows, convention)
 
 
 def test_the_puma_moves_as_its_published_table_says_and_has_a_spherical_wrist(plan):

@@ -67,11 +67,6 @@ def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
     assert sample.min() >= -1 and sample.max() <= 1 and np.ptp(sample, axis=0).min() > 1.9
 
 
-def test_unknown_coordinates_are_refused_with_the_known_ones():
-    with pytest.raises(UnknownName, match="expected: roll_pitch_yaw or rotation_vector"):
-        Workspace(CENTRE, HALF_RANGES, "quaternion")
-
-
 @pytest.mark.parametrize(
     ("numbers", "angles", "most"),
     [

@@ -36,10 +36,10 @@ CIRCLE = """<link name="one"/><link name="two"/>
         (('mass value="0.0"', 'mass value="-1"'), "one carries has no mass of an arm's link"),
         (('mass value="0.0"', 'mass value="1e7"'), "one carries has no mass of an arm's link"),
         (
-            ('<mass value="0.0"/>', '<origin xyz="0 1350 0"/><mass value="1"/>'),
+            ('<mass value="0.0"/>', '<origin xyz="0 60 0"/><mass value="1"/>'),
             "one carries has its centre 50 m or more away in arm.urdf; are its lengths in m",
         ),
-        (('xyz="0.4 0 0"', 'xyz="400 0 0"'), "two is 50 m or more .*; are its lengths in m"),
+        (('xyz="0.4 0 0"', 'xyz="60 0 0"'), "two is 50 m or more .*; are its lengths in m"),
         (('rpy="0 0 0"', 'rpy="0 -90 0"'), "has rpy '0 -90 0'; expected: rad, not degrees"),
         (("</robot>", GRIPPER), "tool is missing; .*; at its ends are hand, link_2"),
         (('xyz="0 0 1"', 'xyz="0 0 1e-200"'), "the axis of one has no length"),

@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.project import wait_until
+from tests.faults.project import wait_until
 
 PROGRAMS = "munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue", "scancel"
 SYSTEM = f"{os.environ.get('PATH', os.defpath)}:/usr/local/sbin:/usr/sbin"  # where daemons lie

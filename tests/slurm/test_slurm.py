@@ -7,8 +7,8 @@ from importlib.util import find_spec
 
 import pytest
 
+from tests.faults.project import Project, kill, outcome_of
 from tests.faults.yard import at_work
-from tests.project import Project, kill, outcome_of
 from tests.slurm.cluster import Cluster, missing
 
 pytestmark = [

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from recalib import DamagedArm, EncoderShift, LinkShortening, Station, apply, load_arm, load_robot
+from recalib import DamagedArm, EncoderShift, LinkShortening, apply, load_arm, load_robot
 
 pytest.importorskip("mujoco", reason="of the extra live")
 import simulated_arm as physics
@@ -47,24 +47,3 @@ def test_joints_droop_by_their_torque_over_their_stiffness(damaged):
     assert np.linalg.norm(expected, axis=1).max() > 2e-3
     errors, droops = (np.linalg.norm(gaps, axis=1) for gaps in (droop - expected, expected))
     assert errors.max() < 0.01 * droops.min()
-
-
-def test_encoders_say_what_was_asked_for_and_the_instrument_sees_the_target():
-    damaged, target, instrument = bent(), np.eye(4), np.eye(4)
-    target[:3, 3], instrument[:3, 3] = [0, 0, 0.1], [1, 0, 0]
-    station: Station = PhysicsStation(damaged, instrument=instrument, target=target)
-    angles = postures(damaged, 1)[0]
-    station.move(angles, 0.5)
-    assert np.array_equal(station.angles(), angles)
-    cells, pose = station.measure(), station.pose()
-    expected = (pose @ target)[:3, 3] - [1, 0, 0]
-    assert np.allclose([cells["x [m]"], cells["y [m]"], cells["z [m]"]], expected)
-    assert list(cells)[3:] == ["qx", "qy", "qz", "qw"]
-
-
-def test_identification_explains_droop():
-    pytest.importorskip("cv2", reason="needs OpenCV, of the extra vision")
-    from tests.bars.paper_live import calibrated
-
-    row = calibrated(("physics", 0))
-    assert row["before"] > 10 and row["geometry"] > 3 and row["after"] < 0.3  # mm

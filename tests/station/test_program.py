@@ -105,23 +105,6 @@ def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, mo
     assert time.monotonic() - start < 30
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("nowhere --at all", "nowhere does not start: No such file or directory"),
-        ("'unclosed", "is not a command line: No closing quotation"),
-        ("", "STATION is empty"),
-        ("nowhere.py:Mine", "there is no file nowhere.py; expected: FILE.py:NAME"),
-        ("no_such_module:Mine", "cannot be made: ModuleNotFoundError: No module named"),
-        ("recalib.errors:Mine", "has no attribute 'Mine'"),
-        ("sh -c 'exit 3'", "sh ended before it answered 'describe'"),
-    ],
-)
-def test_what_is_no_station_is_told(text, message):
-    with pytest.raises(StationFailed, match=message):
-        open_station(text)
-
-
 @pytest.mark.skipif(not shutil.which("node"), reason="needs node")
 def test_the_example_in_another_language_is_a_station(tmp_path, monkeypatch):
     monkeypatch.setattr("recalib.station.guarded.PATIENCE", 60)  # s: Node starts slowly

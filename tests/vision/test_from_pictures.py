@@ -22,74 +22,12 @@ from recalib.laboratory.pictures.sessions import Session
 from recalib.laboratory.report.folder import hand_eye
 from recalib.laboratory.report.summary import verdict
 from recalib.vision.detection import Corners, find_corners
-from recalib.vision.lenses import read_lens
 from tests.bars.pictures import Draw
 from tests.conftest import few_folds
 from tests.vision.rendering import LENS, Cell
 from tests.vision.sessions import write_joints, write_views
 
 PICTURES = 30
-BAD = {  # of further pictures, by row
-    31: "it is mirrored",
-    32: "it is blurred",
-    33: "it is the same picture as 000.png",
-    34: "it has 640 x 480 pixels; expected: 1280 x 960",
-    35: "there is no such file",
-    36: "it is not a picture",
-}
-
-
-@pytest.fixture(scope="module")
-def session(tmp_path_factory):
-    """A folder with pictures of a fixed camera, joints, and what was observed."""
-    folder, cell = tmp_path_factory.mktemp("fixed"), Cell(3)
-    joints = cell.postures(PICTURES + len(BAD))
-    pictures = [cell.picture(pose) for pose in cell.board_poses(joints[:PICTURES])]
-    soft = cell.picture(cell.board_poses(joints[:1])[0], blur=8)
-    small = cv2.resize(pictures[0], (640, 480))
-    (folder / "pictures").mkdir()
-    for row, picture in enumerate([*pictures, cv2.flip(pictures[2], 1), soft, pictures[0], small]):
-        cv2.imwrite(str(folder / "pictures" / f"{row:03}.png"), picture)
-    (folder / "pictures" / "035.png").write_text("no picture")
-    (folder / "pictures" / "notes.txt").write_text("a note")
-    cv2.imwrite(str(folder / "pictures" / "spare.png"), pictures[0])
-    write_joints(folder / "joints.csv", cell, joints)
-    assert main(["board", "--out", str(folder / "board")]) == DONE
-    files = folder / "pictures", folder / "joints.csv"
-    board, out = f"--board={folder / 'board' / 'board.toml'}", f"--out={folder / 'observed'}"
-    assert main(["observe", *map(str, files), board, out]) == DONE
-    return folder
-
-
-@pytest.mark.slow
-def test_pictures_lead_to_an_arm_that_is_right_to_half_a_millimetre(session):
-    out, draw = session / "calibration", Draw(3, in_hand=False)
-    arguments = [str(session / "observed"), "--tool=panda_link8", f"--out={out}"]
-    assert main(["calibrate", "panda.urdf", *arguments]) == DONE
-    tool = tomllib.loads((out / "hand_eye.toml").read_text())
-    arm = load_arm(out / "arm.urdf", tool["board"]["in"])
-    assert draw.judge(arm.forward(draw.fresh))[0] < 0.5
-    lens = read_lens(out / "lens.yaml")
-    assert np.allclose(lens.matrix, LENS.matrix, atol=2)
-    held_out, as_right = tool["held_out"], tool["arm_as_right"]["held_out"]
-    for way in ("in blocks", "at random"):
-        assert held_out[way]["millimetres"] < 0.5 and held_out[way]["pixels"] < 0.1
-        assert as_right[way]["millimetres"] > 2 and as_right[way]["pixels"] > 2
-    assert "static_transform_publisher --x " in tool["board"]["ros"]
-    assert f"the camera in {tool['camera']['in']} of arm.urdf" in (out / "summary.txt").read_text()
-
-
-@pytest.mark.slow
-def test_what_was_found_in_each_picture_is_told(session):
-    text = (session / "observed" / "summary.txt").read_text()
-    assert text.startswith(f"{PICTURES} of {PICTURES + len(BAD)} pictures are used; reprojection")
-    page = (session / "observed" / "page.html").read_text()
-    for row, reason in BAD.items():
-        name = f"{row - 1:03}.png"
-        line = next(line for line in text.splitlines() if line.startswith(name))
-        assert reason in line and f"(row {row})" in line and reason in page
-    assert "not in joints.csv: spare.png\n" in text
-    assert page.count("<img") == PICTURES + 4 and 'src="http' not in page
 
 
 @pytest.fixture(scope="module")
@@ -269,6 +207,8 @@ def test_a_camera_has_its_name_and_a_board_that_of_its_file(take_pictures, tmp_p
     assert main(["observe", *files, "--name=left-1", out]) == DONE
     setup = tomllib.loads((tmp_path / "observed" / "setup.toml").read_text())
     assert (setup["camera_name"], setup["board_name"]) == ("left-1", "on_the_table")
+    page = (tmp_path / "observed" / "page.html").read_text()
+    assert page.count("<img") == 12 and 'src="http' not in page
     assert main(["observe", *files, "--name=left 1", f"{out}_again"]) == REFUSED
     assert "--name is 'left 1'; expected: letters, digits, _ and -" in capsys.readouterr().err
 
@@ -335,9 +275,12 @@ NO_PICTURES = {  # by name: what is in the file, and why it is refused
 
 def test_what_is_no_picture_is_refused_in_a_sentence(take_pictures, monkeypatch):
     *_, (folder, joints, board, lens) = take_pictures(11)
+    (folder / "spare.png").write_bytes((folder / "000.png").read_bytes())
+    twice = (folder / "000.png").read_bytes(), "it is the same picture as 000.png"
+    seen = NO_PICTURES | {"copy.png": twice}
     row = joints.read_text().splitlines()[-1].partition(",")[2]
     with joints.open("a") as table:
-        for name, (content, _) in NO_PICTURES.items():
+        for name, (content, _) in seen.items():
             table.write(f"{name},{row}\n")
             if content is not None:
                 (folder / name).write_bytes(content)
@@ -346,8 +289,12 @@ def test_what_is_no_picture_is_refused_in_a_sentence(take_pictures, monkeypatch)
     monkeypatch.setattr(observing, "find_corners", find)
     result = observe(folder, joints, board, lens)
     assert len(result.used) == 11
-    for picture, (_, reason) in zip(result.pictures[11:], NO_PICTURES.values(), strict=True):
+    text = result.summary()
+    assert text.startswith(f"11 of {11 + len(seen)} pictures are used; reprojection")
+    assert "not in joints.csv: spare.png\n" in text
+    for picture, (_, reason) in zip(result.pictures[11:], seen.values(), strict=True):
         assert re.search(reason, picture.reason), picture.name
+        assert f"(row {picture.row})" in text and picture.reason in text
 
 
 def published(command: str) -> np.ndarray:

@@ -229,27 +229,6 @@ def test_matrices(rows, count, length, tmp_path):
             read_poses(path)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("1 2 3 4 5 6\n1 2 3", "its rows have different lengths"),
-        ("1 2 3 4 5 6", "it has no headings; try: --convention"),
-        ("x [m],y [m],z [m]\n1,2,3", "it has no rotation; expected: qx, qy, qz, qw"),
-        ("x [m],y [m],z [m],qx,qy,qz,qw\n1,2,3,0,0,0,2", "the rotation in row 1 has the norm 2"),
-        ("-1 0 0 1 0 1 0 1 0 0 1 1", "it has a matrix that is not a rotation: Non-positive determ"),
-        ("1 0 0 512 0 1 0 80 0 0 1 300", "Is its unit right?"),
-        ("1 0 0 0 0 1 0 0 0 0 1 0 .5 .1 .3 1", "is .5 .1 .3 1; expected: 0 0 0 1; is it tran"),
-        ("1 0 0 nan 0 1 0 .1 0 0 1 .3", "row 1 of column 'x' is 'nan'; expected: a number"),
-        ("", "it is empty"),
-    ],
-)
-def test_a_bad_table_is_refused(text, message, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "poses.txt").write_text(text)
-    main(["calibrate", "--poses", "poses.txt", "--targets", "poses.txt", "--out", "out"])
-    assert message in capsys.readouterr().err
-
-
 def test_decimal_commas_and_numbers_too_many_are_named(tmp_path):
     (path := tmp_path / "poses.txt").write_text("1,5 " * 7)
     with pytest.raises(InvalidFile, match="it has 14 numbers .*; does it have decimal commas?"):
@@ -363,7 +342,7 @@ FAULTS = {
 
 @pytest.mark.parametrize("fault", FAULTS.values(), ids=FAULTS)
 @given(st.integers(0, 10_000), st.booleans(), st.sampled_from(WAYS))
-@settings(max_examples=3, deadline=None)
+@settings(max_examples=2, deadline=None)
 def test_what_cannot_be_is_named_in_one_sentence(fault, seed, in_hand, way):
     """In generated cells, by the pose tables of every controller."""
     cell, way = HandEyeCell(seed, in_hand, rotation=np.radians(0.02)), fault.way or way
@@ -538,31 +517,26 @@ def test_held_out_residuals_are_those_without_the_pose():
         assert np.linalg.norm(residuals[row] - expected) < 0.3 * np.linalg.norm(expected) + 1e-4
 
 
-@pytest.mark.parametrize("joints", [True, False])
-def test_with_joints_and_a_urdf_the_arm_is_calibrated(joints, tmp_path, monkeypatch, capsys):
-    """By the same table and the same pictures."""
+def test_with_joints_and_a_urdf_the_arm_is_calibrated(tmp_path, monkeypatch, capsys):
+    """By the same table and the same pictures; without the joints it is refused."""
     monkeypatch.chdir(tmp_path)
     cell = Cell(3, True)
     postures = cell.postures(14)
     (tmp_path / "pictures").mkdir()
-    headings = ["picture", *"xyzabc", *(cell.arm.joints if joints else ())]
-    rows = [",".join(f"{name} [rad]" if "joint" in name else name for name in headings)]
     poses = written(cell.tool(postures), "kuka").splitlines()
+    rows = [["picture", *"xyzabc", *(f"{joint} [rad]" for joint in cell.arm.joints)]]
     for number, (pose, angles) in enumerate(zip(poses, postures, strict=True)):
         shown = cell.picture(cell.board_poses(angles[None])[0])
         cv2.imwrite(str(tmp_path / f"pictures/{number}.png"), shown)
-        own = [f"{angle:.9f}" for angle in angles] if joints else []
-        rows.append(",".join([f"{number}.png", *pose.split(), *own]))
-    (tmp_path / "poses.csv").write_text("\n".join(rows))
+        rows.append([f"{number}.png", *pose.split(), *(f"{angle:.9f}" for angle in angles)])
+    (tmp_path / "poses.csv").write_text("\n".join(map(",".join, rows)))
     (tmp_path / "board.toml").write_text(cell.board.described())
     inputs = ["--poses", "poses.csv", "--convention", "kuka", "--pictures", "pictures"]
     where = ["--board", "board.toml", "--camera", "hand"]
     assert main(["calibrate", *inputs, *where, "--out", "hand_eye"]) == DONE
     arm = ["panda.urdf", "--tool", "panda_link8"]
-    code = main(["calibrate", *arm, *inputs, *where, "--out", "arm"])
-    if joints:
-        assert code == DONE
-        assert (tmp_path / "arm/arm.urdf").exists()
-    else:
-        assert code == REFUSED
-        assert "the column of joint 'panda_joint1' is missing" in capsys.readouterr().err
+    assert main(["calibrate", *arm, *inputs, *where, "--out", "arm"]) == DONE
+    assert (tmp_path / "arm/arm.urdf").exists()
+    (tmp_path / "poses.csv").write_text("\n".join(",".join(row[:7]) for row in rows))
+    assert main(["calibrate", *arm, *inputs, *where, "--out", "none"]) == REFUSED
+    assert "the column of joint 'panda_joint1' is missing" in capsys.readouterr().err

@@ -177,10 +177,7 @@ def test_a_picture_with_few_good_corners_is_no_sight_of_the_board(tmp_path, monk
     assert PicturesOfABoard(Photographs(path), pictures).measure() is None
 
 
-def test_a_board_needs_a_lens_and_room_for_its_pictures(tmp_path, capsys):
-    words = ["live", "nowhere", "ur10_robot.urdf", "--tool=tool0", "--board=board.toml"]
-    assert main([*words, f"--out={tmp_path / 'new'}"]) == REFUSED
-    assert "--lens is missing; expected: the calibration of the lens" in capsys.readouterr().err
+def test_a_board_needs_room_for_its_pictures(tmp_path, capsys):
     (tmp_path / "new_observed").mkdir()
     (tmp_path / "new_observed" / "page.html").touch()
     words = ["live", "nowhere", "ur10_robot.urdf", "--board=board.toml", "--lens=lens.yaml"]

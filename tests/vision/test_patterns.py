@@ -168,8 +168,13 @@ def test_a_mirrored_print_of_markers_is_named(name):
 @pytest.mark.parametrize("name", ["chessboard", "circles"])
 def test_a_part_of_a_plain_pattern_is_refused(name):
     board, sheet = SHEETS[name]
-    with pytest.raises(Unusable, match="it does not show all"):
-        find_corners(board, sheet.picture(frame([0, 0, 0], [0.25, 0, 0.5])))
+    beside = sheet.picture(frame([0, 0, 0], [0.25, 0, 0.5]))
+    with pytest.raises(
+        Unusable, match=r"it does not show all \d+ (corners of the chessboard|circ\w+)$"
+    ):
+        find_corners(board, beside)
+    with pytest.raises(Unusable, match=r"; it is blurred, by [3-5]\.\d px or more"):
+        find_corners(board, cv2.GaussianBlur(beside, (0, 0), 5))
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from recalib.vision.boards import printable
 from recalib.vision.detection import Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, good_corners, optics_of, predicted_views, sighting
-from tests.bars.pictures import NOISE, Draw
+from tests.bars.pictures import NOISE
 from tests.vision.rendering import BOARD, LENS, Cell, frame
 
 PLACES = pytest.mark.parametrize("in_hand", [False, True], ids=["fixed", "hand"])
@@ -164,25 +164,6 @@ def test_pictures_are_predicted(in_hand):
         "front": True,
         **dict.fromkeys(hidden, False),
     }
-
-
-@PLACES
-@pytest.mark.parametrize("returns", [0.0, 0.02], ids=["exact", "worn"])
-def test_pixels_beat_poses(in_hand, returns):
-    draw = Draw(1, in_hand, returns)
-    errors = []
-    for observations in (draw.poses, draw.pixels):
-        calibration = draw.calibration(observations)
-        errors.append(draw.judge(calibration.forward(draw.fresh))[0])
-    assert errors[1] < 0.5 and errors[1] < (0.5 if not returns else 0.9) * errors[0]
-
-
-def test_the_lens_of_an_arm_is_better_than_that_of_pictures():
-    draw = Draw(1, in_hand=False)
-    calibration = draw.calibration(draw.pixels)
-    found = calibration.estimate.parameters[calibration.model.optics_columns][2:4]
-    true = np.diag(LENS.matrix)[:2] - np.diag(draw.lens.matrix)[:2]
-    assert np.linalg.norm(found - true) < 0.5 * np.linalg.norm(true)
 
 
 @pytest.mark.parametrize("blur", [0.8, 1.5, 2.5])

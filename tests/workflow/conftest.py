@@ -13,7 +13,7 @@ from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
 from replication.running import LOCK
 from tests.conftest import ROOT
-from tests.project import Project, kill, wait_until
+from tests.faults.project import Project, kill, wait_until
 
 CORES = "--cores", "2"
 READ = "Makefile", "config.yaml", LOCK, "workflow/expected.csv", "workflow/real/ur5.toml"

@@ -10,7 +10,7 @@ import pytest
 from replication.running import study_of
 from replication.training import Place, places
 from tests.conftest import ROOT, copy_project, run
-from tests.project import Project
+from tests.faults.project import Project
 
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
 STUDY = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)[1]

@@ -10,7 +10,7 @@ import yaml
 from recalib import load
 from replication.scenarios import Resolved
 from tests.conftest import ROOT
-from tests.project import Project
+from tests.faults.project import Project
 from tests.replication.config.test_own_robots import ARMS, entry_of
 from tests.workflow.conftest import CORES
 
@@ -92,7 +92,6 @@ def test_the_same_configuration_gives_the_same_bytes(continued):
 
 @shared
 def test_a_final_error_outside_of_its_band_ends_the_run_with_its_name(continued):
-    """That an error in a learning rule is one, tests/replication/training/test_planted.py shows."""
     bands = pd.read_csv(continued.folder / "tests" / "tiny" / "expected.csv")
     wrong = continued.folder / "wrong.csv"
     bands.assign(low=bands["low"] + 10, high=bands["high"] + 10).to_csv(wrong, index=False)

@@ -176,8 +176,10 @@ def read_poses(
         )
     try:
         rotations = way.turns(turns)
-    except ValueError as error:  # of SciPy: a mirrored matrix
-        raise InvalidFile(path, f"it has a matrix that is not a rotation: {error}") from None
+    except ValueError:  # of SciPy, in several lines
+        row = int((np.linalg.det(turns.reshape(-1, 3, 3)) <= 0).argmax()) + 1
+        found = f"the matrix in row {row} is mirrored; expected: a rotation"
+        raise InvalidFile(path, found) from None
     return PoseTable(table, arrays["positions"], rotations, turns, inverted)
 
 

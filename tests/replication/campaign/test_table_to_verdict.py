@@ -42,7 +42,7 @@ def share(result, *verdicts):
 
 
 FALSE = Verdict.SUPPORTED, Verdict.CONTRADICTED
-BETWEEN = (0.05, 0.1, 0.15)
+BETWEEN = (0.05, 0.15)
 
 
 @pytest.fixture(scope="module")

@@ -60,6 +60,7 @@ def test_a_shift_of_the_base_may_say_both():
     both = BaseShift((0.01, 0.0, 0.0), (0.0, 0.1, 0.0))
     assert ENTRY.validate_python(describe(both)) == both
     assert ENTRY.validate_python(describe(BaseShift())) == BaseShift()
+    assert describe(Noise(0.0002, 1.0 - 1.0)) == {"position_noise": "0.2 mm"}
 
 
 @given(st.floats(0, 3), st.floats(-3, 3))

@@ -52,11 +52,6 @@ def test_an_arm_is_run_or_refused_in_a_sentence_that_is_true(row, tmp_path):
     assert message.endswith(f": robots.mine.{row['says']}")
 
 
-def test_the_table_has_all_arms_of_six_joints_and_more():
-    """All files but those of legs, hands, wheels and pendulums, and of arms that have fewer."""
-    assert len(ARMS) > 40 and sum("says" in row for row in ARMS) == 5
-
-
 @pytest.mark.parametrize("robot", ["z1", "jaco", "ur3", "ur5"])
 def test_a_robot_of_config_yaml_has_the_damages_that_it_declares_and_no_others(robot, tmp_path):
     """`gears` and `sag` of config.yaml are about the joints of a UR10, and are not run."""

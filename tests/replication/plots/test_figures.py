@@ -14,13 +14,10 @@ from replication.plots import (
     APART,
     BOTH,
     LABELS,
-    STYLES,
     Figure,
     drawing,
     figures_of,
     rows,
-    styles_of,
-    styles_of_trainings,
 )
 from replication.training import leading
 from tests.conftest import ROOT, changed
@@ -154,12 +151,3 @@ def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_pa
     quick = changed(other, experiments={"evidence": False})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
     assert figures_of(quick) == [figure.file for figure in trained]
-
-
-def test_every_learner_looks_like_itself_and_unlike_the_others(small):
-    shown = styles_of([*small.benchmark.papers, *small.benchmark.learners])
-    assert shown == STYLES
-    assert len({(style.color, style.marker) for style in shown.values()}) == len(shown)
-    trainings = styles_of_trainings({RITTER: [200, 10_000], "mine": [7]})
-    assert trainings[RITTER, 10_000].color == STYLES[RITTER].color
-    assert len({style.color for style in trainings.values()}) == 3

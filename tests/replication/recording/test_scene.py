@@ -1,5 +1,7 @@
 """What a recording shows is what was measured, where it was."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -142,7 +144,14 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(columns,
     last = robot.workspace.to_poses(poses.desired[0, -1])[:3, 3]
     _, radii = columns("/improved/map/cells", "Points3D:radii")
     assert np.argmax(radii[-1]) == np.linalg.norm(np.subtract(centres, last), axis=-1).argmin()
-    assert np.max(radii[0]) == np.min(radii), "none has won yet"
+    assert np.max(radii[0]) == np.min(radii) > 0, "none has won yet"
+
+
+def test_the_legend_s_lines_are_below_each_other(columns):
+    (places,) = columns("/legend", "Points3D:positions")[1]
+    gaps = np.diff(places, axis=0)
+    assert len(gaps) > 2 and np.allclose(gaps, gaps[0], atol=1e-6) and gaps[0, 2] < 0
+    assert 0.02 < np.linalg.norm(gaps[0]) < 0.1, "m, of an arm of 1.3 m"
 
 
 def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot):
@@ -176,6 +185,9 @@ def test_the_eye_is_on_the_side_from_which_misses_look_longest(robot):
     for miss, eye in zip(misses, eyes, strict=True):
         across = np.linalg.norm(np.cross(miss, eye))
         assert across > 0.9 * np.linalg.norm(miss) * np.linalg.norm(eye)
+    far = np.diag([2.0, 2.0, 2.0, 1.0]) @ robot.workspace.centre @ np.diag([0.5, 0.5, 0.5, 1.0])
+    twice = sight_of(replace(robot.workspace, centre=far), misses[:1])
+    assert np.allclose(twice.eye, 2 * sights[0].eye), "all of an arm twice as large is in view"
     for sight in sights:
         assert in_picture(sight, np.zeros(3))[0] > 0, "the base is aside"
         assert np.allclose(in_picture(sight, sight.place(0.3, -0.8)), [0.3, -0.8])

@@ -63,6 +63,17 @@ def test_the_paper_s_damage_is_the_assignment_nearest_to_the_published_errors(fe
     assert scenario["initial_orientation_error_deg"] == pytest.approx(nearest.iloc[1], rel=0.3)
 
 
+def test_initial_errors_are_means_over_the_workspace(study, robot, controller):
+    damages = EncoderShift("shoulder_pan_joint", 0.1), EncoderShift("wrist_3_joint", 0.1)
+    mine = changed(study, scenarios=study.scenarios | {"mine": damages})
+    (resolved,), _ = resolve(mine, "ur10", ["mine"])
+    desired = robot.workspace.to_poses(robot.workspace.sample(generator(1), 1000))
+    poses = apply(robot, damages).forward(controller.inverse(desired)), desired
+    found = resolved.initial_position_error_cm, resolved.initial_orientation_error_deg
+    means = 100 * position_error(*poses).mean(), np.degrees(orientation_error(*poses).mean())
+    assert found == pytest.approx(means, rel=0.02)
+
+
 def test_where_no_scenario_has_a_part_of_the_paper_s_damage_nothing_is_assigned(study, tmp_path):
     _, table = resolve(study, "ur10", ["intact", "rotation"])
     assert table == {}

@@ -163,14 +163,3 @@ def test_no_test_pose_of_any_job_was_learned_from_or_searched_with(
     assert min(map(len, map(np.unique, (tests, searched, learned)))) > 500
     for some, others in ((tests, learned), (tests, searched), (searched, learned)):
         assert not np.isin(some, others).any()
-
-
-def test_the_first_setups_of_the_campaign_and_their_replicates_share_no_poses():
-    drawn = [
-        Stream.SEARCH.draw(seed, [0], 50, 20, number=number, setup=setup, replicate=replicate)
-        for seed, setup in ((1, 0), (2, 1))
-        for number in range(3)
-        for replicate in range(2)
-    ]
-    poses = np.concatenate([np.append(draw.desired, draw.tests) for draw in drawn])
-    assert len(np.unique(poses)) == len(poses)

@@ -1,6 +1,6 @@
 """Widths and rates: as rows that a learner takes, and as points that a search moves."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,11 +14,9 @@ from replication.training import (
     Trials,
     Tuned,
     Tuning,
-    rules_of,
-    trained,
     worse,
 )
-from tests.replication.campaign.planted import valley
+from tests.replication.campaign.planted import Planted, valley
 
 
 @pytest.fixture
@@ -81,23 +79,6 @@ def test_a_learner_has_the_settings_of_the_reference_study_alone(study, settings
         Tuned(study, settings).learner("improved", 201, 1)
 
 
-def test_every_training_of_a_study_needs_settings(study):
-    needed = trained(study)
-    plan = study.experiments
-    for learners in (plan.learners, plan.own):
-        pairs = {(name, length) for name, lengths in learners.items() for length in lengths}
-        assert pairs <= needed
-    assert {*study.real.twin.items(), *study.benchmark.papers.items()} <= needed
-    assert ("improved", plan.iterations) in needed
-    assert {(switch.without, 200) for switch in SWITCHES} <= needed
-
-
-def test_rules_are_what_the_configuration_says(study):
-    assert rules_of(study.learners["improved"]) == Rules(True, True, True, True)
-    assert rules_of(study.learners["ritter"]) == Rules(False, False, False, False)
-    assert rules_of(study.learners["ritter_double"]).supernet == (3, 6, 3)
-
-
 @pytest.mark.parametrize("switch", SWITCHES)
 def test_a_switch_changes_one_thing_of_each_system(study, switch):
     rules_by_name = {name: rules.model_dump() for name, rules in study.every_learner.items()}
@@ -108,31 +89,21 @@ def test_a_switch_changes_one_thing_of_each_system(study, switch):
     assert added == ritter | {switch.key: improved[switch.key]}
 
 
-NONE = np.zeros((1, 0, 6))
+def valley_at(width: float, space) -> Planted:
+    """Trials whose optimum is this width with a rate of 0.8: there, a tenth remains."""
 
-
-@dataclass(frozen=True)
-class Valley:
-    """Trials whose optimum is a width of 0.5 with a rate of 0.8: there, a tenth remains."""
-
-    space: Space
-    poses = SearchPoses("search", NONE, NONE)
-    misled: float = 1.0  # factor of the optimal width, as by poses that are few
-
-    def first(self, runs):
-        return self
-
-    def shares(self, rows):
-        settings = dict(zip(self.space.columns, rows.T, strict=True))
+    def surface(settings):
         logs = np.log(0.1) + valley(settings["initial_rate"], 0.8)
-        for name in self.space.neighbourhoods:
-            logs = logs + valley(settings[name], 0.5 * self.misled)
-        return np.exp(np.stack([logs, logs - 0.5], axis=-1))
+        logs = logs + sum(valley(settings[name], width) for name in space.neighbourhoods)
+        return np.stack([logs, logs - 0.5], axis=-1)
+
+    none = np.zeros((1, 0, 6))
+    return Planted(space, SearchPoses("search", none, none), surface, np.zeros((1, 2)))
 
 
 @pytest.fixture
-def tuning(study):
-    trials = Valley(Space(Rules(True, True, True, True), study.search.ranges))
+def tuning(study, space):
+    trials = valley_at(0.5, space)
     plan = study.search.model_copy(update={"trials": 960, "near_trials": 160, "doublings": 1})
     return Tuning([trials, trials], trials, plan)
 
@@ -151,12 +122,12 @@ def test_searches_that_find_the_same_have_converged(tuning):
     effort = RoughSearch(trials=16, ranges=Ranges(widths=(0.1, 5.0), rates=(0.1, 1.0)))
     found = tuning.rough(effort)
     assert found.trials == 16 and not found.settled
-    assert 0.1 < found.scores[0] < 1
+    assert len(found.scores) == 1 and 0.1 < found.scores[0] < 1
     assert (found.best[:5] >= 0.0999).all() and (found.best[:5] <= 5.001).all()
 
 
 def test_searches_that_do_not_begin_again_once_with_twice_as_many_trials(tuning):
-    apart = replace(tuning, trials=[tuning.fresh, replace(tuning.fresh, misled=4.0)])
+    apart = replace(tuning, trials=[tuning.fresh, valley_at(2.0, tuning.fresh.space)])
     found = apart.search()
     assert not found.settled and found.trials == 960 * 3
     assert found.scores.max() > 1.02 * found.scores.min()
@@ -174,7 +145,9 @@ def test_a_share_is_of_the_arms_own_error_and_a_learner_that_diverges_is_worst(s
     poses = Stream.SEARCH.draw(1, [0, 1], 30, 20, number=0, setup=0, replicate=0)
     trials = Trials(space, poses, lambda runs: uneven.plant(controller, 1, range(runs)))
     good, nothing = [4.6, 0.6, 0.6, 0.6, 0.6, 0.99, 0.7], [4.6, 0.6, 0.6, 0.6, 0.6, 0.02, 0.02]
-    shares = trials.shares(np.array([good, nothing]))
+    shares, errors = (ask(np.array([good, nothing])) for ask in (trials.shares, trials.outcome))
+    logs = np.log(errors.errors / trials.uncorrected)
+    assert shares == pytest.approx(np.exp(logs.mean(axis=1))), "of runs, a geometric mean"
     assert (shares[0] < 0.5).all() and (shares[1] > 0.5).all()
     assert trials.uncorrected.shape == (2, 2) and (trials.uncorrected > 0.005).all()
     first = trials.first(1).poses
