@@ -12,6 +12,7 @@ BASE = 0.05, np.radians(5)  # m, rad
 LINK = 0.02, np.radians(0.5)
 UNKNOWN = 0.5, np.radians(30)  # of an unknown frame, around its initial estimate
 HELD = 1e-9  # of a parameter that no observation can identify: it stays at its initial value
+EXACT = 1e-6  # m, rad: deviation of a number without one, if other numbers of the pose have one
 
 
 @dataclass(frozen=True)

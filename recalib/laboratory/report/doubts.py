@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from recalib.identification.checks.gains import WrongGain
+from recalib.identification.checks.misplaced import misplaced
 from recalib.identification.checks.postures import turned_axes
 from recalib.identification.checks.sequence import Fault
 from recalib.identification.model.frames import HELD, Frames
@@ -36,6 +37,7 @@ def doubts(result: Results) -> list[str]:
         gain=gain and gain_in_words(gain, result.arm),
         outvoted=[*_outvoted(result)],
         worn=_worn(result),
+        misplaced=[*_misplaced(result)],
         axes=turned_axes(result.arm.forward(joints)) if result.unseen else (),
         open_here=sorted(ends, key=lambda words: not any(end in words for end in ENDS)),
         resized=[*_resized(result)],
@@ -85,6 +87,13 @@ def _worn(result: Results) -> tuple[Parameter, float] | None:
     ratios[model.optics_columns] = 0.0
     largest = int(ratios.argmax())
     return (result.parameters[largest], ratios[largest]) if ratios[largest] > WORN else None
+
+
+def _misplaced(result: Results) -> Iterator[tuple[str, np.ndarray]]:
+    """Stated frames that are elsewhere; none if joints stood still, whose errors look the same."""
+    if not result.validation.postures.still.any():
+        rows = result.data.observations[result.validation.counted]
+        yield from misplaced(result.geometry, result.frames, rows)
 
 
 def _resized(result: Results) -> Iterator[tuple[str, float, bool]]:

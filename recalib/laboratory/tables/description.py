@@ -12,12 +12,11 @@ from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
 from recalib.files.storage import read_toml
-from recalib.identification.model.frames import LINK, Frames
+from recalib.identification.model.frames import EXACT, LINK, Frames
 from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance", "wear"
 PLUS_MINUS = re.compile(r"\s*(?:\+/?-|±)\s*")
-EXACT = 1e-6  # m, rad: deviation of a number without one, if other numbers of the pose have one
 
 
 @dataclass(frozen=True)
