@@ -12,7 +12,7 @@ from recalib.errors import InvalidSetting, UnknownName
 from recalib.identification.calibration import Calibration, turned
 from recalib.identification.checks.gains import WrongGain, wrong_gain
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
-from recalib.identification.checks.outliers import Displaced, Exchanged, displaced, exchanged
+from recalib.identification.checks.outliers import Exchanged, exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import LAG, Fault, faults
 from recalib.identification.estimation import DOUBTFUL
@@ -187,11 +187,6 @@ class Results:
     def exchanged(self) -> Exchanged | None:
         """Outliers whose measurements fit the joints of other rows."""
         return exchanged(self.geometry, self.data.observations)
-
-    @cached_property
-    def displaced(self) -> list[Displaced]:
-        """Runs of outliers with the same displacement; none if a mistake is likely."""
-        return [] if self.mistaken else displaced(self.geometry, self.data.observations)
 
     @cached_property
     def wrong_gain(self) -> WrongGain | None:

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from recalib import OFFSETS, Calibrated, Description, Observations, calibrate_arm, load_arm
 from recalib.identification import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, WAYS, parameters_of
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.identification.checks.outliers import Displaced, Exchanged
+from recalib.identification.checks.outliers import Exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.model import ErrorModel, Frames
@@ -55,7 +55,6 @@ def result(
         mistake=None,
         mistaken=None,
         wrong_gain=None,
-        displaced=[],
         exchanged=None,
         unseen=0,
         directions=[],
@@ -122,7 +121,7 @@ def test_a_stated_frame_that_is_off_is_doubted_by_name(seed, off, deviation, ur1
 
 def test_outliers_with_one_cause_are_told_by_their_rows():
     found = result({}, GEOMETRIC)
-    found.displaced = [Displaced(20, 34, 5e-3, np.radians(0.2))]
+    found.faults = [Fault(JUMP, 5e-3, 20, np.radians(0.2), back=35)]
     found.exchanged = Exchanged(np.array([10, 11]), np.array([11, 10]))
     found.data = replace(found.data, doubts=["the lens of camera left is doubtful"])
     lens, elsewhere, order = doubts(found)

@@ -12,7 +12,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.checks.sequence import (
-    ENDS,
     JUMP,
     MOST,
     SHARE,
@@ -20,6 +19,7 @@ from recalib.identification.checks.sequence import (
     Candidate,
     Fault,
     Unexplained,
+    jumps,
 )
 from recalib.identification.hand_eye import FINEST, calibrate_hand_eye
 from recalib.identification.model.hand_eye_model import (
@@ -85,7 +85,11 @@ def _strongest(found: HandEye, correlation: float | None = None) -> Motion:
         redundancy = (1 + correlation) / (1 - correlation)
     rest = Unexplained(residuals, np.concatenate(others, axis=2), redundancy)
     ends = (CAMERA, TARGET)
-    tried = [(*rest.strongest(Candidate("", rows, slopes[..., end], ENDS)), end) for end in ends]
+    tried = []
+    for end in ends:
+        candidate = Candidate("", rows, slopes[..., end], jumps(len(rows)))
+        share, (first, _), step = rest.strongest(candidate)
+        tried.append((share, int(first), step, end))
     return max(tried, key=lambda motion: motion[0])
 
 
