@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.errors import InvalidSetting, UnknownName
+from recalib.errors import InvalidSetting, check_name
 from recalib.identification.calibration import Calibration, turned
 from recalib.identification.checks.gains import WrongGain, wrong_gain
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
@@ -65,8 +65,8 @@ class Results:
         """
         count, names = len(self.arm.coupling.columns), self.data.sight_names
         given = self.arm.coupling.given("joints", joints, ("n",), ())
-        if target is not None and target not in names:
-            raise UnknownName("target", target, names)
+        if target is not None:
+            check_name("target", target, names)
         number = 0 if target is None else names.index(target)
         postures = self.arm.coupling.joints(given.reshape(-1, count))
         poses = self.calibration.predict(postures, np.full(len(postures), number))

@@ -208,6 +208,17 @@ def test_a_mistake_that_a_fit_takes_for_errors_of_the_arm_is_named(mirrored, mes
     assert re.search(message, text)
 
 
+@pytest.mark.parametrize("still", [[0], [2], [3, 4, 5], [0, 1, 4, 5]], ids=str)
+def test_joints_that_stood_still_are_no_mistake(still, ur10):
+    """Their own errors look like a column in another unit, or with another zero."""
+    real, random = Real(ur10, 5), np.random.default_rng(5)
+    joints = np.array([0, -1, 2, -2, -1.6, 0]) + random.uniform(-1, 1, (40, 6))
+    joints[:, still] = joints[0, still]
+    places = {"instrument": np.linalg.inv(real.base), "target": real.targets[0]}
+    data = DataSet(Observations(joints, real.poses(joints)), known=Description({}, **places))
+    assert identified(ur10, data).mistake is None
+
+
 def test_rows_that_are_shifted_by_one_are_told_once(arm, folder):
     """Slow rows look as if poses lagged behind, too."""
     joints = MIDDLE + RANGE * np.sin(np.arange(ROWS)[:, None] * [0.31, 0.47, 0.23])

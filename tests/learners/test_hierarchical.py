@@ -5,9 +5,12 @@ import pytest
 
 from recalib import (
     IMPROVED,
+    GaussianProcessLearner,
     HierarchicalLearner,
     InvalidSetting,
     Outcome,
+    PolynomialLearner,
+    RadialLearner,
     RecalibError,
     Rules,
     Schedule,
@@ -141,6 +144,28 @@ def test_impossible_widths_and_rates_are_refused(widths, rate):
         match=r"(final_widths|initial_rate) is .*expected: (above 0|an array of finite)",
     ):
         Schedule(1.0, {"pose": widths}, rate, 0.1)
+
+
+@pytest.mark.parametrize("given", [None, "x", [], {}, np.zeros(2), object()], ids=repr)
+def test_wrong_arguments_are_refused_before_anything_moves(given):
+    """Whatever a learner or its rules get that cannot be theirs."""
+    learner, poses = improved(), np.zeros((1, 6))
+    radial = RadialLearner(IMPROVED, learner.schedule)
+    for call in (
+        lambda: learner.learn(poses, given, 0.0),
+        lambda: learner.learn(poses, pytest.fail, given),
+        lambda: radial.learn(poses, given, 0.0),
+        lambda: radial.learn(poses, pytest.fail, given),
+        lambda: GaussianProcessLearner().learn(poses, given, 0.0),
+        lambda: PolynomialLearner(given),
+        lambda: Rules(True, True, True, True, centres=given),
+        lambda: Rules(True, True, True, True, spread=given),
+        lambda: Rules(True, True, True, True, dimensions=given),
+        lambda: improved(runs=given),
+        lambda: improved(runs=True),
+    ):
+        with pytest.raises(RecalibError):
+            call()
 
 
 def improved(runs=1):

@@ -6,13 +6,7 @@ import numpy as np
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.postures import find_postures
-from recalib.identification.checks.sequence import (
-    SHARE,
-    Candidate,
-    Unexplained,
-    slopes_of,
-    whole,
-)
+from recalib.identification.checks.sequence import SHARE, Candidate, Unexplained, slopes_of
 from recalib.identification.model.error_model import JOINT_ERRORS
 from recalib.identification.model.observations import Observations
 
@@ -56,7 +50,7 @@ def wrong_gain(geometry: Calibration, observations: Observations) -> WrongGain |
         reduced = Unexplained(slopes.residuals, without, redundancy)
         for joint in np.flatnonzero(nominal.slides == nominal.slides[by]):
             columns = by_offset[..., [joint]] * moved[:, by, None, None]
-            candidate = Candidate("", rows, columns, whole(len(rows)))
+            candidate = Candidate("", rows, columns)
             share, _, (found,) = reduced.strongest(candidate)
             least = LEAST_GAIN if joint == by else LEAST
             if share < SHARE or abs(found) < least:

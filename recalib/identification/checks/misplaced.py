@@ -19,36 +19,35 @@ FAR = 3.0  # stated deviations
 
 
 def misplaced(
-    geometry: Calibration, frames: Frames, observations: Observations
+    geometry: Calibration, frames: Frames, rows: Observations
 ) -> Iterator[tuple[str, np.ndarray]]:
     """The name of each such frame, and how far it is off (m, rad).
 
-    `geometry` was identified from the same observations, with these frames as they are stated.
+    `geometry` was identified from the same rows, with these frames as they are stated.
     """
-    stated: list[np.ndarray | None] = []
-    for unknown, prior, (_, turn) in (
-        (frames.base_unknown, frames.base_prior, BASE),
-        (frames.targets_unknown, frames.target_prior, LINK),
+    arm, loose, stated = geometry.model.nominal, {}, {}
+    for name, unknown, prior, (_, worn) in (
+        ("instrument", frames.base_unknown, frames.base_prior, BASE),
+        ("target", frames.targets_unknown, frames.target_prior, LINK),
     ):
-        given = prior if len(prior) else np.zeros(6)
-        worn = np.where(given > EXACT, given, np.repeat([0.0, turn], 3))
-        stated.append(None if unknown and not len(prior) else worn)
-    loose = [None if one is None else np.array([UNKNOWN[0]] * 3 + [*one[3:]]) for one in stated]
-    if all(one is None for one in loose):
+        if len(prior) or not unknown:
+            given = prior if len(prior) else np.zeros(6)
+            turns = np.where(given[3:] > EXACT, given[3:], worn)
+            loose[name] = np.array([UNKNOWN[0]] * 3 + [*turns])
+            stated[name] = np.linalg.norm(given[:3]), np.linalg.norm(turns)
+    if not loose:
         return
-    arm, freed = geometry.model.nominal, frames.with_priors(*loose)
-    (found,) = calibrations(arm, [OFFSETS], observations, freed)
-    model, parameters = found.model, found.estimate.parameters
-    shifts, as_stated = model.shifts(parameters), geometry.model.shifts(geometry.estimate.parameters)
-    links = shifts[1 : len(arm.joints)]
-    hidden = np.sum(links**2) < LESS * np.sum(as_stated**2)
-    typical = np.sqrt(np.sum(links**2) / len(arm.joints))
-    for number, slopes, _ in model.ends:
-        end = min(number, 1)
-        if (deviations := stated[end]) is None:
-            continue
-        moved, turned = (slopes @ model.twists(parameters)[number]).reshape(2, 3)
-        shift = min(np.linalg.norm(moved), shifts[number])
-        farthest = max(LEAST, FARTHER * typical, FAR * np.linalg.norm(deviations[:3]))
-        if (hidden and shift > farthest) or (np.abs(turned) > FAR * deviations[3:]).any():
-            yield ("instrument", "target")[end], np.array([shift, np.linalg.norm(turned)])
+    freed = frames.with_priors(loose.get("instrument"), loose.get("target"))
+    (found,) = calibrations(arm, [OFFSETS], rows, freed)
+    twists = found.model.twists(found.estimate.parameters)
+    shifts = found.model.shifts(found.estimate.parameters)
+    count, links = len(arm.joints), np.sum(shifts[1 : len(arm.joints)] ** 2)
+    hidden = links < LESS * np.sum(geometry.model.shifts(geometry.estimate.parameters) ** 2)
+    # a tilt of the base moves one of both ends of the way to a distant instrument, but not both
+    shifts[0] = min(shifts[0], np.linalg.norm(twists[0, :3]))
+    for name, (length, angle) in stated.items():
+        twist = 0 if name == "instrument" else count
+        shift, turn = shifts[twist], np.linalg.norm(twists[twist, 3:])
+        farthest = max(LEAST, FARTHER * np.sqrt(links / count), FAR * length)
+        if (hidden and shift > farthest) or turn > FAR * angle:
+            yield name, np.array([shift, turn])

@@ -147,18 +147,14 @@ class Candidate(NamedTuple):
         kind: the kind of fault.
         rows: (m,) the numbers of the affected rows, in the order of measurement.
         columns: (m, k, c) slopes of these rows' residuals by the fault's parameters.
-        windows: (w, 2) the first row, and the one after the last, of each part that may have it.
+        windows: (w, 2) the first row, and the one after the last, of each part that may have it;
+            None: all rows have it.
     """
 
     kind: str
     rows: np.ndarray
     columns: np.ndarray
-    windows: np.ndarray
-
-
-def whole(count: int) -> np.ndarray:
-    """The window of all rows."""
-    return np.array([[0, count]])
+    windows: np.ndarray | None = None
 
 
 def jumps(count: int) -> np.ndarray:
@@ -195,11 +191,9 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[C
         if clock[0] == clock[-1]:  # a camera with one picture cannot show a lag or a drift
             continue
         passed[rows] = (clock - clock[0]) / np.ptp(clock)
-        late, growing = part.whitened(_late(geometry, part, clock)), passed[rows, None, None]
-        every = whole(len(rows))
-        yield Candidate(LAG, rows, late[..., None], every)
-        yield Candidate(DRIFT, rows, moved[rows] * growing, every)
-        yield Candidate(GROWTH, rows, grown[rows] * growing, every)
+        yield Candidate(LAG, rows, part.whitened(_late(geometry, part, clock))[..., None])
+        yield Candidate(DRIFT, rows, moved[rows] * passed[rows, None, None])
+        yield Candidate(GROWTH, rows, grown[rows] * passed[rows, None, None])
     along = passed if observations.times is None else times
     for kind, numbers, columns in ((JUMP, instruments, moved), (SLIP, targets, slipped)):
         for number in np.unique(numbers):
@@ -242,6 +236,7 @@ class Unexplained:
         Also returns its window (2,) among the candidate's rows, and its parameters (c,).
         """
         _, numbers, columns, windows = candidate
+        windows = np.array([[0, len(columns)]]) if windows is None else windows
         products = (
             np.einsum("nkc,nkd->ncd", columns, columns),
             np.einsum("nkc,nkp->ncp", columns, self._arm[numbers]),

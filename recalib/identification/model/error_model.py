@@ -136,38 +136,29 @@ class ErrorModel:
     def shifts(self, parameters: np.ndarray) -> np.ndarray:
         """How far (joints + targets + further instruments,) [m] the twists move the frames."""
         pairs = zip(self._placed(parameters), self._placements, strict=True)
-        return np.array([np.linalg.norm(one.translation - other.translation) for one, other in pairs])
+        return np.array([np.linalg.norm(a.translation - b.translation) for a, b in pairs])
 
     def sockets(self, parameters: np.ndarray) -> np.ndarray:
         """The sockets' centres (socket, 3) [m] in the frame of the instrument."""
         return self.frames.sockets + parameters[self.socket_columns].reshape(-1, 3)
 
     @cached_property
-    def ends(self) -> list[tuple[int, np.ndarray, np.ndarray]]:
-        """The ends of the arm, the base first: number of its twist, slopes, stated deviations.
-
-        The slopes (6, 6) map its twist to its motion [m, rad] along the axes of base or tool. The
-        deviations (6,) are empty if the frame is unknown or exact.
-        """
-        frames, tool = self.frames, self._tool
-        ends = [(0, frames.base[:3, :3].T, np.zeros(3), frames.base_prior)]
-        for number, target in enumerate(frames.targets, start=self._joints):
-            point = (tool * pin.SE3(target)).translation
-            ends.append((number, tool.rotation.T, point, frames.target_prior))
-        return [
-            (number, np.block([[turn, -turn @ pin.skew(point)], [np.zeros((3, 3)), turn]]), prior)
-            for number, turn, point, prior in ends
-        ]
-
-    @cached_property
     def stated(self) -> np.ndarray:
         """The stated information (P, P) on frames, of parameters over their deviations."""
-        information = np.zeros((len(self.deviations),) * 2)
-        for number, slopes, prior in self.ends:
-            if len(prior):
-                columns = slice(6 * number, 6 * number + 6)
-                whitened = slopes * self.deviations[columns] / prior[:, None]
-                information[columns, columns] = whitened.T @ whitened
+        frames, information = self.frames, np.zeros((len(self.deviations),) * 2)
+        into_base, into_tool = frames.base[:3, :3].T, self._tool.rotation.T
+        ends = [(0, into_base, np.zeros(3), frames.base_prior)]
+        ends += [
+            (self._joints + number, into_tool, (self._tool * pin.SE3(target)).translation, prior)
+            for prior in [frames.target_prior]
+            for number, target in enumerate(frames.targets)
+        ]
+        for number, turn, point, prior in ends:
+            if len(prior):  # slopes of the end's motion by the twist, over their deviations
+                columns, moves = slice(6 * number, 6 * number + 6), np.kron(np.eye(2), turn)
+                moves[:3, 3:] = -turn @ pin.skew(point)
+                slopes = moves * self.deviations[columns] / prior[:, None]
+                information[columns, columns] = slopes.T @ slopes
         return information
 
     @property

@@ -30,6 +30,8 @@ def doubts(result: Results) -> list[str]:
     ends = [words for one, words in result.directions if not one.lasting]
     gain = None if result.mistake else result.wrong_gain
     joints = result.data.observations.joints
+    rows = result.data.observations[result.validation.counted]
+    any_still = result.validation.postures.still.any()  # its error looks like a misplaced frame
     lines = render(
         "doubts.txt.j2",
         result=result,
@@ -37,7 +39,7 @@ def doubts(result: Results) -> list[str]:
         gain=gain and gain_in_words(gain, result.arm),
         outvoted=[*_outvoted(result)],
         worn=_worn(result),
-        misplaced=[*_misplaced(result)],
+        misplaced=[] if any_still else misplaced(result.geometry, result.frames, rows),
         axes=turned_axes(result.arm.forward(joints)) if result.unseen else (),
         open_here=sorted(ends, key=lambda words: not any(end in words for end in ENDS)),
         resized=[*_resized(result)],
@@ -87,13 +89,6 @@ def _worn(result: Results) -> tuple[Parameter, float] | None:
     ratios[model.optics_columns] = 0.0
     largest = int(ratios.argmax())
     return (result.parameters[largest], ratios[largest]) if ratios[largest] > WORN else None
-
-
-def _misplaced(result: Results) -> Iterator[tuple[str, np.ndarray]]:
-    """Stated frames that are elsewhere; none if joints stood still, whose errors look the same."""
-    if not result.validation.postures.still.any():
-        rows = result.data.observations[result.validation.counted]
-        yield from misplaced(result.geometry, result.frames, rows)
 
 
 def _resized(result: Results) -> Iterator[tuple[str, float, bool]]:
