@@ -41,8 +41,9 @@ class InvalidSetting(RecalibError):
 
 
 def check_name(kind: str, name: str, valid: Iterable[str]) -> None:
-    """Raise UnknownName if a name is not valid."""
-    if name not in (names := [*valid]):
+    """Raise UnknownName if a name, which may be of any type, is not valid."""
+    names = [*valid]
+    if not isinstance(name, str) or name not in names:
         raise UnknownName(kind, name, names)
 
 
@@ -53,9 +54,15 @@ def check_kind(name: str, given: object, *kinds: type) -> None:
         raise InvalidSetting(name, type(given).__name__, f"an instance of {valid}")
 
 
+def check_function(name: str, given: object) -> None:
+    """Raise InvalidSetting unless an argument can be called."""
+    if not callable(given):
+        raise InvalidSetting(name, type(given).__name__, "a function")
+
+
 def check_runs(runs: object) -> None:
     """Raise InvalidSetting if the number of runs is not a positive integer."""
-    if not isinstance(runs, Integral) or int(runs) < 1:
+    if isinstance(runs, bool) or not isinstance(runs, Integral) or int(runs) < 1:
         raise InvalidSetting("runs", runs, "a whole number, at least 1")
 
 

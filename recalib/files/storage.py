@@ -7,7 +7,7 @@ import re
 import stat
 import tomllib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -23,8 +23,8 @@ _MARKED |= dict.fromkeys((codecs.BOM_UTF16_BE, b"\0<"), "utf-16-be")
 
 
 def path_of(given: str | os.PathLike[str]) -> Path:
-    """The given name as a path. Raises InvalidSetting: not a path, or an empty name."""
-    if not isinstance(given, str | os.PathLike) or not os.fspath(given):
+    """The given name as a path. Raises InvalidSetting: not a path, or a name that no file has."""
+    if not isinstance(given, str | os.PathLike) or not os.fspath(given) or "\0" in os.fspath(given):
         raise InvalidSetting("path", given, "the name of a file or folder")
     return Path(given)
 
@@ -98,15 +98,22 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path in the folder of `path`, with the same suffix.
 
     The file there replaces `path` when the block ends without an error.
+
+    Raises InvalidSetting: not a path; InvalidFile: no regular file, or one that cannot be written.
     """
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.stem}.{os.getpid()}{IN_THE_MAKING}{path.suffix}")
+    path = path_of(path)
+    temporary = path.parent / f".{path.stem}.{os.getpid()}{IN_THE_MAKING}{path.suffix}"
     try:
+        if path.exists() and not path.is_file():
+            raise InvalidFile(path, "it is a folder or device; expected: the name of a file")
+        path.parent.mkdir(parents=True, exist_ok=True)
         yield temporary
         os.replace(temporary, path)
+    except OSError as error:
+        raise InvalidFile(path, f"it cannot be written: {error.strerror}") from None
     finally:
-        temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink()
 
 
 def is_temporary(name: str) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from recalib.arrays import array_of, check_rotations, check_size
-from recalib.errors import InvalidSetting
+from recalib.errors import InvalidSetting, check_function
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import LENGTH, TIME
 from recalib.identification.checks.diagnostics import Untrustworthy
@@ -91,8 +91,7 @@ def calibrate(
             for pair, length in (distances or {}).items()
         ]
     )
-    if not callable(on_progress):
-        raise InvalidSetting("on_progress", type(on_progress).__name__, "a function of a line")
+    check_function("on_progress", on_progress)
     frames = _frame("instrument", instrument), _frame("target", target)
     rows = Measurements(ARRAYS, moving, poses, columns)
     known = Description({}, *frames, pairs)
@@ -142,6 +141,7 @@ def calibrate_arm(
     Raises RecalibError: an unusable arm, table or description; nominal positions of another arm;
     frames that are not identifiable, or contradict the description; a fit that cannot be trusted.
     """
+    check_function("on_progress", on_progress)
     file, arm, known = opened(urdf, description, tool, base)
     on_progress(file.origin)
     rows = read_measurements(table, arm, known)

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.errors import InvalidSetting, UnknownName, check_kind
+from recalib.errors import InvalidSetting, check_kind, check_name
 from recalib.files.archives import MOST, archive_of, opened, refused
 from recalib.files.outputs import AnyPath
 from recalib.files.storage import path_of, read_file, whole
@@ -196,9 +196,9 @@ class Correction:
         """The poses with the numbers of their targets. Raises like `correct`."""
         goals = Goals.of(poses, near, self.arm.coupling)
         frames, kinds = self.calibration.frames, len(self.calibration.estimate.noise)
-        frame = frame or (BASE if len(frames.sockets) else INSTRUMENT)
-        if frame not in FRAMES:
-            raise UnknownName("frame", str(frame), FRAMES)
+        if frame is None:
+            frame = BASE if len(frames.sockets) else INSTRUMENT
+        check_name("frame", frame, FRAMES)
         if frame == BASE:
             if target is not None:
                 raise InvalidSetting("frame", frame, "instrument, the frame of a target's poses")
@@ -215,15 +215,14 @@ class Correction:
         if goals.poses.ndim == 3 and frames.targets_unknown and kinds == 1:
             valid = "positions alone: measured positions do not determine a target's rotation"
             raise InvalidSetting("rotations of a target", "given", valid)
+        target = target.ravel().tolist() if isinstance(target, np.ndarray) else target
         check_kind("target", target, str, Iterable, type(None))
         if target is None and len(self.targets) > 1:
             raise InvalidSetting("target", None, f"{listed(self.targets, 'or')} for each pose")
-        names = (
-            [target or self.targets[0]] if target is None or isinstance(target, str) else [*target]
-        )
+        given = self.targets if target is None else target
+        names = [given] if isinstance(given, str) else [*given]
         for name in names:
-            if name not in self.targets:
-                raise UnknownName("target", str(name), self.targets)
+            check_name("target", name, self.targets)
         if len(names) not in (1, len(goals)):
             raise InvalidSetting("target", f"{len(names)} names", f"one, or {len(goals)}")
         numbers = np.array([self.targets.index(name) for name in names])

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from recalib.errors import InvalidSetting, UnknownName
+from recalib.errors import InvalidSetting, check_name
 from recalib.identification.calibration import Calibration, turned
 from recalib.identification.checks.gains import WrongGain, wrong_gain
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
-from recalib.identification.checks.outliers import Displaced, Exchanged, displaced, exchanged
+from recalib.identification.checks.outliers import Exchanged, exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import LAG, Fault, faults
 from recalib.identification.estimation import DOUBTFUL
@@ -71,8 +71,8 @@ class Calibrated:
         """
         count, names = len(self.arm.coupling.columns), self.data.sight_names
         given = self.arm.coupling.given("joints", joints, ("n",), ())
-        if target is not None and target not in names:
-            raise UnknownName("target", target, names)
+        if target is not None:
+            check_name("target", target, names)
         number = 0 if target is None else names.index(target)
         postures = self.arm.coupling.joints(given.reshape(-1, count))
         poses = self.calibration.predict(postures, np.full(len(postures), number))
@@ -193,11 +193,6 @@ class Calibrated:
     def exchanged(self) -> Exchanged | None:
         """Outliers whose measurements fit the joints of other rows."""
         return exchanged(self.geometry, self.data.observations)
-
-    @cached_property
-    def displaced(self) -> list[Displaced]:
-        """Runs of outliers with the same displacement; none if a mistake is likely."""
-        return [] if self.mistaken else displaced(self.geometry, self.data.observations)
 
     @cached_property
     def wrong_gain(self) -> WrongGain | None:

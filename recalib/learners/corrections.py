@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 
 from recalib.arrays import array_of
-from recalib.errors import InvalidSetting, check_runs
+from recalib.errors import InvalidSetting, check_kind, check_runs
 from recalib.learners.observer import Observer, Refitting
 from recalib.loop.interfaces import State
 from recalib.nominal.robots import Robot
@@ -38,6 +38,7 @@ class PolynomialLearner(Observer):
     """
 
     def __init__(self, degree: int, *, runs: int = 1):
+        check_kind("degree of a polynomial learner", degree, int)
         if degree not in (1, 2):
             raise InvalidSetting("degree of a polynomial learner", degree, "1 or 2")
         check_runs(runs)

@@ -7,7 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from recalib.arrays import array_of
-from recalib.errors import check_kind
+from recalib.errors import check_function, check_kind
 from recalib.learners import kernels
 from recalib.learners.kernels import JACOBIAN, THETA, WAITING, Cells
 from recalib.learners.nets import Nets
@@ -95,6 +95,8 @@ class HierarchicalLearner:
         is not a number, far off, or the same for all commands, and InvalidSetting: another shape.
         """
         desired = array_of("desired", desired, (self._runs, 6))
+        array_of("fraction", fraction, ())
+        check_function("execute", execute)
         if self._waiting == WAITING:
             self._settle()
         cells = tuple(self.cells), self._waiting, self._increments

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from recalib.arrays import ending
-from recalib.errors import check_runs
+from recalib.errors import check_function, check_runs
 from recalib.loop.interfaces import Execute, State
 from recalib.loop.moves import Moves, check_moves
 from recalib.nominal.robots import Robot
@@ -44,6 +44,7 @@ class Observer(ABC):
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """Make one move to the desired poses (run, 6), and learn from it."""
+        check_function("execute", execute)
         commands = self.command(ending("desired", desired, 6)[:, None])
         outcome = execute(commands)
         self.observe(commands, outcome.achieved, outcome.executed)

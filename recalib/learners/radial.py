@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import softmax
 
 from recalib.arrays import array_of
-from recalib.errors import InvalidSetting, check_kind
+from recalib.errors import InvalidSetting, check_function, check_kind
 from recalib.learners import kernels
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
@@ -82,6 +82,8 @@ class RadialLearner:
         or far off.
         """
         desired = array_of("desired", desired, (len(self.theta), 6))
+        array_of("fraction", fraction, ())
+        check_function("execute", execute)
         command = self.command(desired[:, None])
         outcome = execute(command)
         check_moves(command, outcome.achieved, outcome.executed)

@@ -68,7 +68,9 @@ class Rules:
             check_kind(key, getattr(self, key), bool)
         check_name("centres of cells", self.centres, CENTRES)
         check_name("spread of equal visits", self.spread, SPREADS)
+        check_kind("rate", self.rate, str, type(None))
         check_name("fall of the learning rate", self.law_of_rate, RATES)
+        check_kind("dimensions", self.dimensions, int)
         if self.dimensions not in (3, 6):
             raise InvalidSetting("dimensions", self.dimensions, "3 or 6")
         for key in ("supernet", "subnet"):

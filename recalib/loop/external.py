@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from recalib.arrays import are_poses, array_of
-from recalib.errors import BadMeasurement, InvalidSetting, check_kind
+from recalib.errors import BadMeasurement, check_function, check_kind
 from recalib.loop.interfaces import Outcome
 from recalib.nominal.poses import Workspace
 
@@ -34,8 +34,7 @@ class ExternalRobot:
 
     def __init__(self, workspace: Workspace, move: Callable[[np.ndarray], np.ndarray | None]):
         check_kind("workspace", workspace, Workspace)
-        if not callable(move):
-            raise InvalidSetting("move", type(move).__name__, "a function")
+        check_function("move", move)
         self.workspace, self._move = workspace, move
         self.moves = 0
         self.refused: np.ndarray | int = 0

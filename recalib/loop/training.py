@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 
 from recalib.arrays import array_of
-from recalib.errors import InvalidSetting, check_kind
+from recalib.errors import InvalidSetting, check_function, check_kind
 from recalib.loop.interfaces import Commandable, Learner
 from recalib.nominal.poses import Workspace, pose_errors
 
@@ -114,6 +114,7 @@ def train(
     """
     check_kind("plant", plant, Commandable)
     check_kind("learner", learner, Learner)
+    check_function("progress", progress)
     desired = array_of("desired", desired, ("n", "n", 6), ("n", 6))
     tests = array_of("tests", tests, (*desired.shape[:-2], "n", 6))
     if not tests.size:

@@ -53,7 +53,7 @@ def arm_of(source: bytes, path: Path, tool: str | None = None, base: str | None 
     """Like `load_arm`, from the content of a URDF; `path` is only for messages."""
     tree = _Tree(source, path)
     base = tree.link("base", base or tree.root)
-    tool = tree.link("tool", tool) if tool else tree.only_end(base)
+    tool = tree.only_end(base) if tool is None else tree.link("tool", tool)
     moving = tree.joints_between(base, tool)
     locked = [joint for joint, name in enumerate(tree.model.names) if joint and name not in moving]
     model = pin.buildReducedModel(tree.model, locked, pin.neutral(tree.model))

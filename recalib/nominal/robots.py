@@ -103,7 +103,7 @@ def load_robot(
     InvalidSetting (a joint without a home, a home beyond a joint's limits, a workspace without
     size, or with ambiguous coordinates of orientations).
     """
-    path, limits = find_urdf(urdf), limits or {}
+    path, limits = find_urdf(urdf), {} if limits is None else limits
     array_of("beyond", beyond, ())
     arm = load_arm(path, tool)
     end = arm.end.placement.translation
@@ -129,7 +129,7 @@ def load_robot(
         if pair.shape != (2,) or not pair[0] <= pair[1]:
             raise InvalidSetting(f"limits.{joint}", bounds, "the lowest and the highest")
         lower[index], upper[index] = pair
-    angles = np.array([home[joint] for joint in joints], dtype=float)
+    angles = np.array([array_of(f"home.{joint}", home[joint], ()) for joint in joints])
     for joint, slides, low, angle, high in zip(
         joints, arm.slides, lower, angles, upper, strict=True
     ):

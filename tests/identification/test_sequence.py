@@ -8,7 +8,7 @@ import pytest
 
 from recalib import OFFSETS, Calibration, Observations, initial_frames
 from recalib.identification import calibrate, identify_by_consensus
-from recalib.identification.checks.outliers import displaced, exchanged
+from recalib.identification.checks.outliers import exchanged
 from recalib.identification.checks.sequence import DRIFT, GROWTH, JUMP, LAG, faults
 from recalib.identification.model import ErrorModel, Frames, Optics
 from tests.conftest import few_folds
@@ -142,13 +142,12 @@ def test_rows_measured_from_elsewhere_are_named_with_the_motion(ur10, seed):
     turned = pin.exp3(turn * np.array([0, 0.6, 0.8]))
     motion = pin.SE3(turned, middle + distance * np.eye(3)[0] - turned @ middle).homogeneous
     rows = slice(first, first + count)
-    expected = np.linalg.norm((motion @ poses[rows])[:, :3, 3].mean(0) - poses[rows, :3, 3].mean(0))
     poses[rows] = motion @ poses[rows]
     geometry, observations = calibrated(ur10, joints, poses, seed)
-    (run,) = displaced(geometry, observations)
-    assert (run.first, run.last) == (first, first + count - 1)
-    assert run.shift == pytest.approx(expected, rel=0.15)
-    assert run.turn == pytest.approx(turn, abs=np.radians(0.15))
+    (fault,) = faults(geometry, observations)
+    assert (fault.kind, fault.row, fault.back) == (JUMP, first, first + count)
+    assert fault.size == pytest.approx(distance, rel=0.15)
+    assert fault.turn == pytest.approx(turn, abs=np.radians(0.15))
     assert exchanged(geometry, observations) is None
 
 
@@ -170,4 +169,4 @@ def test_outliers_by_chance_have_no_cause(ur10, seed):
     rows = slice(20, 26) if seed < 3 else random.choice(COUNT, 6, replace=False)
     poses[rows, :3, 3] += random.normal(0, 0.01, (6, 3))
     geometry, observations = calibrated(ur10, joints, poses, seed)
-    assert displaced(geometry, observations) == [] and exchanged(geometry, observations) is None
+    assert faults(geometry, observations) == [] and exchanged(geometry, observations) is None

@@ -1,6 +1,10 @@
 """Arrays in wrong shapes, units and numbers: each ends in our own exception, before any work."""
 
+import contextlib
+import os
 from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -8,7 +12,14 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from recalib import EncoderShift, LinkShortening, RecalibError, apply, calibrate
+from recalib import (
+    EncoderShift,
+    LinkShortening,
+    RecalibError,
+    apply,
+    calibrate,
+    load_correction,
+)
 from tests.laboratory.conftest import postures
 
 ROWS = 12
@@ -106,6 +117,28 @@ def test_one_posture_or_many_and_no_other_shape(arm, joints):
     for ask in (arm.forward, arm.gravity_torque, arm.skeleton, damaged.forward):
         with suppress(RecalibError):
             assert len(ask(joints)) == np.shape(joints)[0] or np.ndim(joints) == 1
+
+
+NOT_A_FILE = st.one_of(
+    st.sampled_from([None, 3, b"a.npz", "", ".", "..", "/", "a\0b", "a" * 300, "/dev/null"]),
+    st.sampled_from(["folder", "file/a.npz", "/proc/a.npz"]),
+)
+
+
+@given(NOT_A_FILE, ANY)
+def test_a_file_that_cannot_be_and_names_that_are_none_are_refused(calibrated, path, name):
+    """A device, too: it would be replaced by a file."""
+    correction = load_correction(calibrated)
+    with TemporaryDirectory() as here, contextlib.chdir(here):
+        Path("folder").mkdir()
+        Path("file").touch()
+        with pytest.raises(RecalibError):
+            correction.save(path)
+        assert sorted(os.listdir()) == ["file", "folder"]
+    joints = correction.learned[:1]
+    for key in ("target", "frame"):
+        with suppress(RecalibError):
+            correction.correct(correction.calibration.predict(joints)[:, :3, 3], **{key: name})
 
 
 def test_one_posture_is_a_row_of_many(arm):

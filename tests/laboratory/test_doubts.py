@@ -8,16 +8,18 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, Calibrated, Observations, calibrate_arm, load_arm
+from recalib import OFFSETS, Calibrated, Description, Observations, calibrate_arm, load_arm
 from recalib.identification import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, WAYS, parameters_of
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.identification.checks.outliers import Displaced, Exchanged
+from recalib.identification.checks.outliers import Exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.model import ErrorModel, Frames
+from recalib.laboratory.calibrate import identified
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import errors_table, summary
+from tests.identification.real import Real
 from tests.laboratory.conftest import MIDDLE, RANGE, calibrated_by, measured, postures, table, write
 
 ROWS = 60
@@ -35,19 +37,24 @@ def result(
         parameters=np.zeros(size) if parameters is None else parameters, covariance=np.eye(size)
     )
     geometry = SimpleNamespace(model=MODEL, estimate=estimate)
-    validation = SimpleNamespace(chosen=chosen, mean_error=lambda way, kind: errors[way, kind])
+    validation = SimpleNamespace(
+        chosen=chosen,
+        mean_error=lambda way, kind: errors[way, kind],
+        counted=np.ones(ROWS, dtype=bool),
+        postures=SimpleNamespace(still=np.zeros(6, dtype=bool)),
+    )
     return SimpleNamespace(
         validation=validation,
         faults=faults,
         data=DataSet(Observations(np.zeros((ROWS, 6)), times=times)),
         parameters=parameters_of(MODEL, estimate),
-        frames=Frames(),
+        frames=Frames(base_unknown=True, targets_unknown=True),
+        arm=MODEL.nominal,
         geometry=geometry,
         scales={},
         mistake=None,
         mistaken=None,
         wrong_gain=None,
-        displaced=[],
         exchanged=None,
         unseen=0,
         directions=[],
@@ -90,9 +97,31 @@ def test_what_wear_does_not_do_is_doubted_by_name(name, message, deviations):
     assert (expected in text) == (bool(text)) == (abs(deviations) > 3)
 
 
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("off", ["instrument", "target", "nothing"])
+@pytest.mark.parametrize("deviation", [None, 2e-3])
+def test_a_stated_frame_that_is_off_is_doubted_by_name(seed, off, deviation, ur10):
+    """Errors of links may explain such rows as well as a tool that is elsewhere does."""
+    real, random = Real(ur10, seed), np.random.default_rng(seed)
+    joints = np.array([0, -1, 2, -2, -1.6, 0]) + random.uniform(-1, 1, (40, 6))
+    poses = real.poses(joints)
+    places = {"instrument": np.linalg.inv(real.base), "target": real.targets[0].copy()}
+    shift = random.standard_normal(3)
+    if off in places:
+        places[off][:3, 3] += 0.02 * shift / np.linalg.norm(shift)
+    stated = None if deviation is None else np.array([deviation] * 3 + [2e-3] * 3)
+    known = Description({}, **places)
+    if stated is not None:
+        known = replace(known, instrument_deviations=3 * stated, target_deviations=stated)
+        known = replace(known, **{f"{off}_deviations": stated} if off in places else {})
+    data = DataSet(Observations(joints, poses if seed % 2 else poses[:, :3, 3]), known=known)
+    text = " ".join(doubts(identified(ur10, data)))
+    assert re.findall("the stated (.*?) seems to be", text) == [off] * (off in places)
+
+
 def test_outliers_with_one_cause_are_told_by_their_rows():
     found = result({}, GEOMETRIC)
-    found.displaced = [Displaced(20, 34, 5e-3, np.radians(0.2))]
+    found.faults = [Fault(JUMP, 5e-3, 20, np.radians(0.2), back=35)]
     found.exchanged = Exchanged(np.array([10, 11]), np.array([11, 10]))
     found.data = replace(found.data, doubts=["the lens of camera left is doubtful"])
     lens, elsewhere, order = doubts(found)
@@ -177,6 +206,17 @@ def test_a_mistake_that_a_fit_takes_for_errors_of_the_arm_is_named(mirrored, mes
     except Untrustworthy as error:
         text = str(error)
     assert re.search(message, text)
+
+
+@pytest.mark.parametrize("still", [[0], [2], [3, 4, 5], [0, 1, 4, 5]], ids=str)
+def test_joints_that_stood_still_are_no_mistake(still, ur10):
+    """Their own errors look like a column in another unit, or with another zero."""
+    real, random = Real(ur10, 5), np.random.default_rng(5)
+    joints = np.array([0, -1, 2, -2, -1.6, 0]) + random.uniform(-1, 1, (40, 6))
+    joints[:, still] = joints[0, still]
+    places = {"instrument": np.linalg.inv(real.base), "target": real.targets[0]}
+    data = DataSet(Observations(joints, real.poses(joints)), known=Description({}, **places))
+    assert identified(ur10, data).mistake is None
 
 
 def test_rows_that_are_shifted_by_one_are_told_once(arm, folder):

@@ -12,7 +12,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.checks.sequence import (
-    ENDS,
     JUMP,
     MOST,
     SHARE,
@@ -20,6 +19,7 @@ from recalib.identification.checks.sequence import (
     Candidate,
     Fault,
     Unexplained,
+    jumps,
 )
 from recalib.identification.hand_eye import FINEST, calibrate_hand_eye
 from recalib.identification.model.hand_eye_model import (
@@ -31,7 +31,7 @@ from recalib.identification.model.hand_eye_model import (
 )
 from recalib.identification.model.linearisation import displaced
 
-Motion = tuple[float, int, np.ndarray, slice]  # share, first row, displacement (6,), which end
+Motion = tuple[float, np.ndarray, np.ndarray, slice]  # share, window, displacement (6,), which end
 
 
 def moved_ends(found: HandEye) -> tuple[list[Fault], HandEye]:
@@ -45,13 +45,13 @@ def moved_ends(found: HandEye) -> tuple[list[Fault], HandEye]:
         residuals, _, _ = _whitened(without)
         correlation = max(0.0, np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2))
         refitted = replace(without, sights=found.sights)
-        share, row, step, end = motion = _strongest(refitted, correlation)
+        share, (row, _), step, end = motion = _strongest(refitted, correlation)
         if share < SHARE:
             break
         kind = SLIP if found.sights.in_hand == (end == CAMERA) else JUMP
         size, turn = np.linalg.norm(step.reshape(2, 3), axis=1)
         if row not in [fault.row for fault in faults]:  # else it is the remainder of a large turn
-            faults.append(Fault(kind, float(size), row, float(turn)))
+            faults.append(Fault(kind, float(size), int(row), float(turn)))
         found = calibrate_hand_eye(_undone(refitted, motion))
     return faults, found
 
@@ -85,7 +85,8 @@ def _strongest(found: HandEye, correlation: float | None = None) -> Motion:
         redundancy = (1 + correlation) / (1 - correlation)
     rest = Unexplained(residuals, np.concatenate(others, axis=2), redundancy)
     ends = (CAMERA, TARGET)
-    tried = [(*rest.strongest(Candidate("", rows, slopes[..., end], ENDS)), end) for end in ends]
+    windows = jumps(len(rows))
+    tried = [(*rest.strongest(Candidate("", rows, slopes[..., end], windows)), end) for end in ends]
     return max(tried, key=lambda motion: motion[0])
 
 
@@ -99,7 +100,7 @@ def _deviations(flange: np.ndarray) -> np.ndarray:
 
 def _undone(found: HandEye, motion: Motion) -> Sights:
     """The sights as if the end had not moved, with the motion undone in the flange's poses."""
-    _, row, step, end = motion
+    _, (row, _), step, end = motion
     camera, board, between = found.camera, found.board, found.sights.between.copy()
     if end == CAMERA:
         between[row:] = camera @ np.linalg.inv(displaced(camera, step)) @ between[row:]

@@ -31,6 +31,8 @@ ENDS = 5  # the least number of rows on either side of a jump
 # In deviations of the noise. Beyond it, the residual of a row counts and not its square. If this
 # reveals no fault, for instance because of gross outliers, such a row hardly counts at all.
 FAR = 4.0
+CUTS = 60  # places at which something may move or be moved back
+ALIKE = 0.8  # of the squared residuals in between: a motion for some time explains more
 SMALL = 1e-3  # fraction of the typical step for finite differences
 
 
@@ -45,6 +47,7 @@ class Fault:
             otherwise the motion [m] of the instrument relative to the base, from the first row to
             the last or at once, or of the target relative to the tool.
         row: the first row, from 0 in its series, after a jump or a slip.
+        back: the first row that is as before again; 0 if there is none.
         turn: rad, the rotation that belongs to the size.
         sight: the number of this row's sight.
     """
@@ -54,6 +57,7 @@ class Fault:
     row: int = 0
     turn: float = 0.0
     sight: int = 0
+    back: int = 0
 
 
 def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
@@ -90,16 +94,18 @@ def _faults(geometry: Calibration, observations: Observations, power: int) -> li
     while len(found) < MOST:  # the most significant fault first, then those that remain next to it
         rest = Unexplained(residuals, arm, redundancy)
         tried = [(*rest.strongest(candidate), candidate) for candidate in candidates]
-        share, after, step, (kind, rows, columns, _) = max(tried, key=lambda one: one[0])
+        share, (first, last), step, candidate = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
         size = step[0] if len(step) == 1 else np.linalg.norm(step[:3])
         turn = np.linalg.norm(step[3:])
-        series = observations.series == observations.series[rows[after]]
-        row, sight = int(series[: rows[after]].sum()), int(observations.targets[rows[after]])
-        found.append(Fault(kind, float(size), row, float(turn), sight))
+        kind, rows, columns, _ = candidate
+        series = np.cumsum(observations.series == observations.series[rows[first]]) - 1
+        back = int(series[rows[last]]) if last < len(rows) else 0
+        ends = int(series[rows[first]]), float(turn), int(observations.targets[rows[first]]), back
+        found.append(Fault(kind, float(size), *ends))
         further = np.zeros((*residuals.shape, columns.shape[-1]))
-        further[rows[after:]] = columns[after:]
+        further[rows[first:last]] = columns[first:last]
         arm = np.concatenate([arm, further], axis=2)
     return found
 
@@ -141,13 +147,28 @@ class Candidate(NamedTuple):
         kind: the kind of fault.
         rows: (m,) the numbers of the affected rows, in the order of measurement.
         columns: (m, k, c) slopes of these rows' residuals by the fault's parameters.
-        ends: the least number of rows before and after the fault begins; 0: it begins at the first.
+        windows: (w, 2) the first row, and the one after the last, of each part that may have it;
+            None: all rows have it.
     """
 
     kind: str
     rows: np.ndarray
     columns: np.ndarray
-    ends: int = 0
+    windows: np.ndarray | None = None
+
+
+def jumps(count: int) -> np.ndarray:
+    """All windows from some row to the last, with enough rows on both sides of the first."""
+    firsts = np.arange(ENDS, count - ENDS + 1)
+    return np.stack([firsts, np.full(len(firsts), count)], axis=1)
+
+
+def _stays(count: int) -> np.ndarray:
+    """Windows of enough rows between other rows, from and to at most `CUTS` places."""
+    cuts = np.unique(np.linspace(1, count - 1, CUTS).astype(int))
+    pairs = np.stack(np.meshgrid(cuts, cuts), axis=-1).reshape(-1, 2)
+    length = pairs[:, 1] - pairs[:, 0]
+    return pairs[(length >= ENDS) & (length <= count - 2 * ENDS)]
 
 
 def _candidates(geometry: Calibration, observations: Observations) -> Iterator[Candidate]:
@@ -177,7 +198,8 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[C
     for kind, numbers, columns in ((JUMP, instruments, moved), (SLIP, targets, slipped)):
         for number in np.unique(numbers):
             for rows in _orders(np.flatnonzero(numbers == number), observations.series, along):
-                yield Candidate(kind, rows, columns[rows], ENDS)
+                for windows in jumps(len(rows)), _stays(len(rows)):
+                    yield Candidate(kind, rows, columns[rows], windows)
 
 
 def _orders(rows: np.ndarray, series: np.ndarray, along: np.ndarray) -> Iterator[np.ndarray]:
@@ -208,32 +230,38 @@ class Unexplained:
         self._squares = np.sum(residuals**2) - self._gradient @ self._solve(self._gradient)
         self._free = np.count_nonzero(residuals) - np.trace(self._solve(information))
 
-    def strongest(self, candidate: Candidate) -> tuple[float, int, np.ndarray]:
+    def strongest(self, candidate: Candidate) -> tuple[float, np.ndarray, np.ndarray]:
         """A fault's share of the unexplained squares; 0 if it is not significant.
 
-        Also returns the row, among the candidate's, at which it begins, and its parameters (c,).
+        Also returns its window (2,) among the candidate's rows, and its parameters (c,).
         """
-        _, numbers, columns, ends = candidate
+        _, numbers, columns, windows = candidate
+        windows = np.array([[0, len(columns)]]) if windows is None else windows
         products = (
             np.einsum("nkc,nkd->ncd", columns, columns),
             np.einsum("nkc,nkp->ncp", columns, self._arm[numbers]),
             np.einsum("nkc,nk->nc", columns, self._residuals[numbers]),
         )
-        rows = np.arange(ends, len(columns) - ends + 1) if ends else np.zeros(1, int)
-        if not len(rows) or self._free <= columns.shape[-1]:
-            return 0.0, 0, np.zeros(columns.shape[-1])
-        sums = (np.cumsum(part[::-1], axis=0)[::-1][rows] for part in products)
+        if not len(windows) or self._free <= columns.shape[-1]:
+            return 0.0, np.zeros(2, dtype=int), np.zeros(columns.shape[-1])
+        firsts, lasts = windows.T
+        sums = (np.concatenate([0 * part[:1], np.cumsum(part, axis=0)]) for part in products)
+        sums = (part[lasts] - part[firsts] for part in sums)
         information, across, gradient = sums
         absorbed = self._solve(across.reshape(-1, across.shape[-1]).T).T.reshape(across.shape)
         information = information - absorbed @ across.swapaxes(1, 2)
         gradient = gradient - absorbed @ self._gradient
         found = (np.linalg.pinv(information, hermitian=True) @ gradient[..., None])[..., 0]
         gains = np.sum(found * gradient, axis=1)
+        squares = np.cumsum([0.0, *np.sum(self._residuals[numbers] ** 2, axis=1)])
+        # else these would be separate outliers, one after the other
+        alike = (lasts == len(columns)) | (gains > ALIKE * (squares[lasts] - squares[firsts]))
+        gains = np.where(alike, gains, 0.0)
         best, count = int(gains.argmax()), columns.shape[-1]
         gain, free = gains[best], (self._free - count) / self._redundancy
         ratio = gain / count / (self._squares - gain) * free
-        significant = fdtrc(count, free, ratio) * len(rows) < CHANCE
-        return gain / self._squares if significant else 0.0, int(rows[best]), found[best]
+        significant = fdtrc(count, free, ratio) * len(windows) < CHANCE
+        return gain / self._squares if significant else 0.0, windows[best], found[best]
 
     def _solve(self, gradients: np.ndarray) -> np.ndarray:
         return scipy.linalg.cho_solve(self._factor, gradients)

@@ -133,6 +133,11 @@ class ErrorModel:
         """The twists (joints + targets + further instruments, 6) [m, rad] in parameters (P,)."""
         return parameters[: self._twists].reshape(-1, 6)
 
+    def shifts(self, parameters: np.ndarray) -> np.ndarray:
+        """How far (joints + targets + further instruments,) [m] the twists move the frames."""
+        pairs = zip(self._placed(parameters), self._placements, strict=True)
+        return np.array([np.linalg.norm(a.translation - b.translation) for a, b in pairs])
+
     def sockets(self, parameters: np.ndarray) -> np.ndarray:
         """The sockets' centres (socket, 3) [m] in the frame of the instrument."""
         return self.frames.sockets + parameters[self.socket_columns].reshape(-1, 3)

@@ -12,6 +12,7 @@ BASE = 0.05, np.radians(5)  # m, rad
 LINK = 0.02, np.radians(0.5)
 UNKNOWN = 0.5, np.radians(30)  # of an unknown frame, around its initial estimate
 HELD = 1e-9  # of a parameter that no observation can identify: it stays at its initial value
+EXACT = 1e-6  # m, rad: deviation of a number without one, if other numbers of the pose have one
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,16 @@ class Frames:
     def bases(self) -> np.ndarray:
         """The poses (instrument, 4, 4) [m] of the arm's base in the frame of each instrument."""
         return np.concatenate([self.base[None], self.further])
+
+    def with_priors(self, base: np.ndarray | None, target: np.ndarray | None) -> "Frames":
+        """The same frames, of which one or both are known within deviations (6,); see above."""
+        frames = self
+        if base is not None:
+            frames = replace(frames, base_prior=base, base_unknown=True, base_deviations=UNKNOWN)
+        if target is None:
+            return frames
+        frames = replace(frames, target_prior=target, targets_unknown=True)
+        return replace(frames, target_deviations=UNKNOWN)
 
     def with_optics(self, optics: Optics) -> "Frames":
         """The same frames, with the optics of cameras as parameters."""

@@ -12,10 +12,10 @@ from typing import Any
 import cv2
 import numpy as np
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting, check_function
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import NUMBER, Quantity
-from recalib.files.storage import read_toml
+from recalib.files.storage import path_of, read_toml
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import BOARD, Optics
 from recalib.laboratory.calibrate import Progress, identified, opened
@@ -121,12 +121,15 @@ def calibrate_pictures(
 
     Raises RecalibError like `calibrate_arm`.
     """
+    if isinstance(folders, str) or not isinstance(folders, Sequence) or not folders:
+        raise InvalidSetting("folders", folders, "a list of at least one folder")
+    check_function("on_progress", on_progress)
     file, arm, known = opened(urdf, description, tool, base)
     on_progress(file.origin)
     if len(folders) > 1 and (known.instrument is not None or known.target is not None):
         reason = "the description has an instrument or a target, which is for one camera"
         raise InvalidFile(folders[1], f"{reason}; try: omit it")
-    return identified(arm, read_folders([*map(Path, folders)], arm, known), file, on_progress)
+    return identified(arm, read_folders([*map(path_of, folders)], arm, known), file, on_progress)
 
 
 def read_folders(folders: Sequence[Path], arm: Arm, known: Description) -> DataSet:

@@ -106,12 +106,16 @@ def likely_mistake(
     if plain <= MOVED:  # many mistakes would explain the rounding of a perfect arm
         return None
     steps = [*steps_of(arm), *(steps_of_rotations() if measured.ndim == 3 else ())]
+    moved = np.ptp(coordinates, axis=0) > 0
     for count in range(1, most_steps + 1):
         fits = []
         for chosen in combinations(steps if count > 1 else [*steps, *rare_steps_of(arm)], count):
             joints, righted = coordinates, measured
             for step in chosen:
                 joints, righted = step.joints(joints), step.measured(righted)
+            changed = (joints != coordinates).any(axis=0)
+            if frames is not None and changed.any() and not moved[changed].any():
+                continue  # where joints stood still, the arm's own errors look like mistakes
             _, gaps = _fit(arm.forward(joints[rows]), righted[rows])
             positions = righted[rows] if righted.ndim == 2 else righted[rows, :3, 3]
             spread = _rms(np.linalg.norm(positions - positions.mean(axis=0), axis=1))

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from recalib.identification.checks.gains import WrongGain
+from recalib.identification.checks.misplaced import misplaced
 from recalib.identification.checks.postures import turned_axes
 from recalib.identification.checks.sequence import Fault
 from recalib.identification.model.frames import HELD, Frames
@@ -29,6 +30,8 @@ def doubts(result: Calibrated) -> list[str]:
     ends = [words for one, words in result.directions if not one.lasting]
     gain = None if result.mistake else result.wrong_gain
     joints = result.data.observations.joints
+    rows = result.data.observations[result.validation.counted]
+    any_still = result.validation.postures.still.any()  # its error looks like a misplaced frame
     lines = render(
         "doubts.txt.j2",
         result=result,
@@ -36,6 +39,7 @@ def doubts(result: Calibrated) -> list[str]:
         gain=gain and gain_in_words(gain, result.arm),
         outvoted=[*_outvoted(result)],
         worn=_worn(result),
+        misplaced=[] if any_still else misplaced(result.geometry, result.frames, rows),
         axes=turned_axes(result.arm.forward(joints)) if result.unseen else (),
         open_here=sorted(ends, key=lambda words: not any(end in words for end in ENDS)),
         resized=[*_resized(result)],

@@ -12,12 +12,11 @@ from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
 from recalib.files.storage import read_toml
-from recalib.identification.model.frames import LINK, UNKNOWN, Frames
+from recalib.identification.model.frames import EXACT, LINK, Frames
 from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance", "wear"
 PLUS_MINUS = re.compile(r"\s*(?:\+/?-|±)\s*")
-EXACT = 1e-6  # m, rad: deviation of a number without one, if other numbers of the pose have one
 
 
 @dataclass(frozen=True)
@@ -46,12 +45,8 @@ class Description:
 
     def stated_in(self, frames: Frames) -> Frames:
         """The same frames, with the stated deviations of frames, encoders and links as priors."""
+        frames = frames.with_priors(self.instrument_deviations, self.target_deviations)
         frames = replace(frames, offset_deviation=self.encoders)
-        if (base := self.instrument_deviations) is not None:
-            frames = replace(frames, base_prior=base, base_unknown=True, base_deviations=UNKNOWN)
-        if (target := self.target_deviations) is not None:
-            frames = replace(frames, target_prior=target, target_deviations=UNKNOWN)
-            frames = replace(frames, targets_unknown=True)
         if self.links is None:
             return frames
         ends = self.links if frames.target_deviations == LINK else frames.target_deviations
