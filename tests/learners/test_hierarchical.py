@@ -116,7 +116,7 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, conve
                 assert np.allclose(held["jacobian"][k, l], expected_map.A[k, l], atol=1e-12)
 
 
-@pytest.mark.parametrize("given", [None, "x", [], {}, np.zeros(2), object()], ids=repr)
+@pytest.mark.parametrize("given", [None, "x", [], {}, np.zeros(2), b"x"], ids=repr)
 def test_wrong_arguments_are_refused_before_anything_moves(given):
     """Whatever a learner or its rules get that cannot be theirs."""
     learner, poses = improved(), np.zeros((1, 6))
