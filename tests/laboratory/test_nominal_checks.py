@@ -166,7 +166,7 @@ def mirrored(axis, turns):
 
 
 REREAD = {  # by the mistake, a change of rotations r
-    "the rotations' frame or notation, or the last joint": lambda r: r[::-1],
+    "rotations of another frame or in another notation": lambda r: r[::-1],
     "rotations of the instrument in the target's frame": lambda r: r.inv(),
     "a quaternion in the order qw, qx, qy, qz": lambda r: Rotation.from_quat(
         r.as_quat()[:, [3, 0, 1, 2]]
