@@ -12,14 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from recalib import (
-    EncoderShift,
-    LinkShortening,
-    RecalibError,
-    apply,
-    calibrate,
-    load_correction,
-)
+from recalib import EncoderShift, LinkShortening, RecalibError, apply, calibrate, load_correction
 from tests.laboratory.conftest import postures
 
 ROWS = 12
