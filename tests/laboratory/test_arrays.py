@@ -66,11 +66,6 @@ def test_wrong_arrays_are_refused_with_what_was_expected(joints, measured, optio
         calibrate(arm, joints, measured, **options)
 
 
-def test_an_arm_is_needed_and_not_its_name():
-    with pytest.raises(RecalibError, match="arm is 'str'; expected: an Arm, as load_arm returns"):
-        calibrate("ur10_robot.urdf", JOINTS, POSES)
-
-
 SHAPES = arrays.array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=13)
 ANY = st.one_of(
     st.none(),
