@@ -6,7 +6,6 @@ import pytest
 
 from recalib import (
     ExternalRobot,
-    InvalidSetting,
     Outcome,
     Plant,
     PolynomialLearner,
@@ -28,13 +27,6 @@ def poses():
 @pytest.fixture(scope="module")
 def history(controller, damaged, poses):
     return train(Plant(controller, damaged), improved(3), *poses, range(0, 61, 4))
-
-
-def test_learning_reduces_both_errors_of_every_run_by_two_moves_an_iteration(history):
-    for errors in (history.position, history.orientation):
-        assert (errors[:, -1] < 0.3 * errors[:, 0]).all()
-    assert np.array_equal(history.moves, 2 * history.iterations)
-    assert not history.refused.any()
 
 
 def test_a_summary_is_the_mean_the_95th_percentile_and_the_largest():
@@ -116,14 +108,11 @@ def test_the_table_has_a_row_for_each_run_and_measurement(history):
     assert last["orientation_error_max_deg"] == np.degrees(history.orientation[2, -1, 2])
 
 
-def test_each_measurement_that_is_asked_for_is_made_once_or_refused(controller, damaged, poses):
+def test_each_measurement_that_is_asked_for_is_made_once(controller, damaged, poses):
     desired, tests = poses[0][:, :4], poses[1]
     history = train(Plant(controller, damaged), improved(3), desired, tests, iter([4, 0, 4]))
     assert history.iterations.tolist() == [0, 4]
     assert history.position.shape == (3, 2, len(SUMMARIES))
-    for wrong in ([0, 5], [-1, 4], []):
-        with pytest.raises(InvalidSetting, match="measure_at .*expected: numbers from 0 to 4"):
-            train(Plant(controller, damaged), improved(3), desired, tests, wrong)
 
 
 CENTRE = np.diag([1.0, -1.0, -1.0, 1.0])

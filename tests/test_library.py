@@ -174,6 +174,7 @@ def wrong_calls() -> Iterator[tuple[Callable[..., object], tuple]]:
         lambda it: recalib.LiveSettings(box=np.eye(3) if it is None else it),
         lambda it: recalib.calibrate_live(object, it, "never.csv", recalib.LiveSettings()),
         lambda it: recalib.calibrate_live(it, robot.arm, "never.csv", recalib.LiveSettings()),
+        lambda it: recalib.calibrate(it, postures, measured.measured),
         lambda it: recalib.calibrate(robot.arm, postures, measured.measured, on_progress=it),
         lambda it: recalib.calibrate(robot.arm, postures, **balls, distances={("a", "b"): it}),
         lambda it: recalib.ProgramStation([] if isinstance(it, list) else it),
@@ -200,11 +201,29 @@ def wrong_calls() -> Iterator[tuple[Callable[..., object], tuple]]:
     yield from each([1.1, "a"], lambda it: recalib.Outliers(it, 0.05))
     yield from each([-0.05, None], lambda it: recalib.Outliers(0.1, it))
     shapes = [np.zeros(shape) for shape in ((2, 6), (1, 2, 5), (1, 2, 7), (6,), (2, 1, 2, 6))]
-    yield from each(shapes, plant.execute, plant.achieve)
+    yield from each(shapes, plant.execute, plant.achieve, chain.forward)
     yield from each([np.zeros(5), np.zeros(7)], lambda it: recalib.Chain.of(robot.arm, it))
+    radial, waits = recalib.RadialLearner(rules, schedule), recalib.GaussianProcessLearner()
+    yield from each(
+        [None, "x", [], {}, np.zeros(2), b"x"],
+        lambda it: learner.learn(poses[:, 0], it, 0.0),
+        lambda it: learner.learn(poses[:, 0], pytest.fail, it),
+        lambda it: radial.learn(poses[:, 0], it, 0.0),
+        lambda it: radial.learn(poses[:, 0], pytest.fail, it),
+        lambda it: waits.learn(poses[:, 0], it, 0.0),
+        lambda it: recalib.PolynomialLearner(it),
+        lambda it: rest(centres=it),
+        lambda it: rest(spread=it),
+        lambda it: rest(dimensions=it),
+        lambda it: recalib.HierarchicalLearner(rules, schedule, runs=it),
+    )
     three = recalib.Plant(controller, [recalib.apply(robot, [])] * 3)
     two_rates = recalib.Schedule(**good | {"initial_rate": np.array([0.9, 0.8])})
     for call in (
+        lambda: chain.forward(np.zeros((2, 2, 6))),
+        lambda: chain.solve(np.ones((2, 4, 4)), np.zeros((2, 7))),
+        lambda: chain.solve(np.ones((1, 4, 4)), np.zeros((2, 6))),
+        lambda: recalib.HierarchicalLearner(rules, schedule, runs=True),
         lambda: recalib.GaussianProcessLearner(runs=0),
         lambda: recalib.PolynomialLearner(1, runs=0.5),
         lambda: recalib.PolynomialLearner(3),
@@ -227,6 +246,9 @@ def wrong_calls() -> Iterator[tuple[Callable[..., object], tuple]]:
         lambda: load(home, *ranges, beyond="10 cm"),
         lambda: recalib.ProgramStation(["a\0b"]),
         lambda: recalib.train(plant, learner, poses, poses, [0.5]),
+        lambda: recalib.train(plant, learner, poses, poses, [0, 3]),
+        lambda: recalib.train(plant, learner, poses, poses, [-1, 2]),
+        lambda: recalib.train(plant, learner, poses, poses, []),
         lambda: controller.inverse(np.eye(4)),
         lambda: robot.workspace.to_poses(np.zeros(5)),
         lambda: recalib.position_error(np.zeros(3), np.zeros(3)),

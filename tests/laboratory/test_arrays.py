@@ -12,14 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from recalib import (
-    EncoderShift,
-    LinkShortening,
-    RecalibError,
-    apply,
-    calibrate,
-    load_correction,
-)
+from recalib import EncoderShift, LinkShortening, RecalibError, apply, calibrate, load_correction
 from tests.laboratory.conftest import postures
 
 ROWS = 12
@@ -71,11 +64,6 @@ POSES[:, 0, 3] = 0.01 * np.arange(ROWS)
 def test_wrong_arrays_are_refused_with_what_was_expected(joints, measured, options, message, arm):
     with pytest.raises(RecalibError, match=message):
         calibrate(arm, joints, measured, **options)
-
-
-def test_an_arm_is_needed_and_not_its_name():
-    with pytest.raises(RecalibError, match="arm is 'str'; expected: an Arm, as load_arm returns"):
-        calibrate("ur10_robot.urdf", JOINTS, POSES)
 
 
 SHAPES = arrays.array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=13)

@@ -6,13 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import (
-    Calibrated,
-    InvalidFile,
-    InvalidSetting,
-    calibrate_arm,
-    load_correction,
-)
+from recalib import Calibrated, InvalidFile, InvalidSetting, calibrate_arm, load_correction
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.laboratory.plausibility.mistakes import Mistaken
 from recalib.laboratory.propose import propose

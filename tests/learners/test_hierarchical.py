@@ -3,17 +3,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from recalib import (
-    IMPROVED,
-    GaussianProcessLearner,
-    HierarchicalLearner,
-    Outcome,
-    PolynomialLearner,
-    RadialLearner,
-    RecalibError,
-    Rules,
-    Schedule,
-)
+from recalib import IMPROVED, HierarchicalLearner, Outcome, Rules, Schedule
 from recalib.learners import regular_grid
 from tests.reference import SlowMap, cycle
 
@@ -114,28 +104,6 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, conve
             for k, l in product(range(6), range(4)):
                 assert np.allclose(held["theta"][k, l], expected_map.theta[k, l], atol=1e-12)
                 assert np.allclose(held["jacobian"][k, l], expected_map.A[k, l], atol=1e-12)
-
-
-@pytest.mark.parametrize("given", [None, "x", [], {}, np.zeros(2), b"x"], ids=repr)
-def test_wrong_arguments_are_refused_before_anything_moves(given):
-    """Whatever a learner or its rules get that cannot be theirs."""
-    learner, poses = improved(), np.zeros((1, 6))
-    radial = RadialLearner(IMPROVED, learner.schedule)
-    for call in (
-        lambda: learner.learn(poses, given, 0.0),
-        lambda: learner.learn(poses, pytest.fail, given),
-        lambda: radial.learn(poses, given, 0.0),
-        lambda: radial.learn(poses, pytest.fail, given),
-        lambda: GaussianProcessLearner().learn(poses, given, 0.0),
-        lambda: PolynomialLearner(given),
-        lambda: Rules(True, True, True, True, centres=given),
-        lambda: Rules(True, True, True, True, spread=given),
-        lambda: Rules(True, True, True, True, dimensions=given),
-        lambda: improved(runs=given),
-        lambda: improved(runs=True),
-    ):
-        with pytest.raises(RecalibError):
-            call()
 
 
 def improved(runs=1):

@@ -11,6 +11,7 @@ import pytest
 from recalib import InvalidFile, InvalidSetting, UnsuitableRobot, load_arm
 from recalib.nominal import STDERR, UrdfFile, caught_messages, find_urdf
 from tests.arms import GANTRY, SCARA
+from tests.nominal.test_newton import standing
 
 # Of example-robot-data: the tool, and how many joints move it.
 ARMS = {
@@ -136,23 +137,11 @@ def test_what_is_no_file_of_ones_own_is_not_passed_over(tmp_path, monkeypatch):
         load_arm(tmp_path)
 
 
-POSTURES = {
-    "ur10_robot.urdf": ("tool0", [0.0, -1.4, 2.1, -2.9, -1.6, 0.1]),
-    "tiago.urdf": ("hand_tool_link", [0.2, 1.0, -0.5, 1.0, 1.2, -1.0, 0.5, 0.5]),
-}
-
-
-@pytest.fixture(params=POSTURES)
-def arm_and_angles(request):
-    tool, posture = POSTURES[request.param]
-    random = np.random.default_rng(1)
-    angles = posture + random.uniform(-0.1, 0.1, (3, len(posture)))
-    return load_arm(request.param, tool), angles
-
-
-def test_a_skeleton_goes_from_the_base_over_the_joints_to_the_tool(arm_and_angles):
+@pytest.mark.parametrize("name", ["ur10_robot.urdf", "tiago.urdf"])
+def test_a_skeleton_goes_from_the_base_over_the_joints_to_the_tool(name):
     """Rotating a joint leaves where it and those before it are; the tool is where it is."""
-    arm, angles = arm_and_angles
+    arm, posture = standing(name)
+    angles = posture + np.random.default_rng(1).uniform(-0.1, 0.1, (3, len(arm.joints)))
     points = arm.skeleton(angles)
     joints = len(arm.joints)
     assert points.shape == (3, joints + 2, 3) and not points[:, 0].any()

@@ -43,9 +43,8 @@ def in_groups(arm, goals, start, steps=15):
 @pytest.mark.parametrize("solve", [by_chain, in_groups])
 @pytest.mark.parametrize("name", ARMS)
 def test_what_an_arm_reaches_is_found_from_nearby(name, solve):
-    tool, posture = ARMS[name]
-    arm, random = load_arm(name, tool), np.random.default_rng(1)
-    angles = posture + random.uniform(-0.3, 0.3, (20, len(posture)))
+    (arm, posture), random = standing(name), np.random.default_rng(1)
+    angles = posture + random.uniform(-0.3, 0.3, (20, len(arm.joints)))
     start, poses = angles + random.uniform(-0.1, 0.1, angles.shape), arm.forward(angles)
     found, residuals = solve(arm, poses, start)
     assert residuals.max() <= TOLERANCE
@@ -78,7 +77,7 @@ def test_a_step_of_a_redundant_arm_is_the_shortest():
 
 @pytest.mark.parametrize("name", ["ur10_robot.urdf", "panda.urdf"])
 def test_a_start_where_the_arm_is_singular_is_left(name):
-    arm = load_arm(name, ARMS[name][0])
+    arm, _ = standing(name)
     straight = np.zeros((2, len(arm.joints)))
     _, jacobians = arm.forward_and_jacobian(straight)
     assert np.linalg.matrix_rank(jacobians[0]) < 6
@@ -89,8 +88,8 @@ def test_a_start_where_the_arm_is_singular_is_left(name):
 
 
 def test_where_a_group_ends_depends_on_no_other():
-    tool, posture = ARMS["ur10_robot.urdf"]
-    arm, start = load_arm("ur10_robot.urdf", tool), np.tile(posture, (2, 1, 1))
+    arm, posture = standing("ur10_robot.urdf")
+    start = np.tile(posture, (2, 1, 1))
     goals = arm.forward(start[:, 0] + [[1e-3], [0.5]])[:, None]  # the first is reached sooner
     evaluate = kinematics_of(arm, [])
     together = solve_groups(evaluate, goals, start, TOLERANCE, 15)

@@ -80,24 +80,8 @@ def test_an_arm_of_too_many_joints_is_refused():
         arm_of(text.encode(), PATH)
 
 
-TEXTS = (
-    *(
-        "",
-        "nan",
-        "inf",
-        "-1",
-        "1e308",
-        "1e-308",
-        "0 0 0",
-        "a",
-        "1 2",
-        "1,2,3",
-        "${x}",
-        "1e400",
-        "١",
-    ),
-    *("base", "link_1", "lift", "fixed", "continuous", "floating", " 1 0 0 ", "nan nan nan"),
-)
+WORDS = "nan inf -1 1e308 1e-308 a 1,2,3 ${x} 1e400 ١ base link_1 lift fixed continuous floating"
+TEXTS = *WORDS.split(), "", "0 0 0", "1 2", " 1 0 0 ", "nan nan nan"
 TAGS = "mimic", "origin", "axis", "limit", "parent", "child", "joint", "link", "inertial", "visual"
 KEYS = "joint", "link", "name", "xyz", "value", "multiplier"
 

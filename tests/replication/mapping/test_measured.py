@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from replication.config import root_of
-from replication.judgement import Evidence, NotMeasured, Verdict
+from replication.judgement import Evidence, Verdict
 from replication.judgement.claims import Measured, claims
 from replication.mapping import measured, nearness, quantisation, solutions
 from replication.running import write
@@ -60,13 +60,3 @@ def test_claims_about_the_mapping_are_judged_by_what_is_measured(few, evidence, 
     if name in JUDGED:
         assert finding.verdict is JUDGED[name]
     assert name != "expected-learning" or "learns 50 % of what the formula" in finding.note
-
-
-def test_the_cross_effect_is_measured_in_each_scenario_and_what_lacks_is_said(
-    few, evidence, tmp_path
-):
-    table = evidence.mapping("coupling")
-    assert table.groupby("scenario").size().to_dict() == {"links_encoders": 6, "rotation": 6}
-    assert table[table["scenario"] == "rotation"][["position", "orientation"]].max().max() < 1e-3
-    with pytest.raises(NotMeasured, match="solutions"):
-        Evidence(few, tmp_path).mapping("solutions")

@@ -10,15 +10,7 @@ from replication.campaign import DOUBLE
 from replication.config import IMPROVED, RITTER
 from replication.judgement import Crossing, Evidence, Remaining
 from replication.judgement.claims import claims
-from replication.plots import (
-    APART,
-    BOTH,
-    LABELS,
-    Figure,
-    drawing,
-    figures_of,
-    rows,
-)
+from replication.plots import APART, BOTH, LABELS, Figure, drawing, figures_of, rows
 from replication.training import leading
 from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import NEEDED, disturbed

@@ -7,15 +7,7 @@ import pytest
 
 from recalib import RecalibError, Rules
 from replication.config import SWITCHES, Ranges, RoughSearch
-from replication.training import (
-    SearchPoses,
-    Space,
-    Stream,
-    Trials,
-    Tuned,
-    Tuning,
-    worse,
-)
+from replication.training import SearchPoses, Space, Stream, Trials, Tuned, Tuning, worse
 from tests.replication.campaign.planted import Planted, valley
 
 
