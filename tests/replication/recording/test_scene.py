@@ -7,7 +7,8 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import position_error
+from recalib import apply, position_error
+from replication.config import damages_among
 from replication.recording import (
     BEFORE,
     FRAMES_A_SECOND,
@@ -19,7 +20,7 @@ from replication.recording import (
     typical_seed,
     visiting_order,
 )
-from replication.training import Stream
+from replication.training import ERRORS, Stream
 from tests.replication.recording.conftest import ITERATIONS, OWN, TESTS
 
 VISITS = POSES * VISIT  # frames
@@ -53,6 +54,30 @@ def placements(columns, entity) -> np.ndarray:
     return found
 
 
+def test_errors_are_those_of_the_history(columns, files, seed):
+    history = pd.read_parquet(files.histories[0]).query(f"seed == {seed}")
+    for quantity in ERRORS:
+        iterations, values = columns(f"/errors/{quantity}/improved", "Scalars:scalars")
+        assert iterations == [-VISITS, *history["iteration"], ITERATIONS + VISITS]
+        measured = history[quantity].iloc[[0, *range(len(history)), -1]]
+        assert np.ravel(values) == close(measured.to_numpy(), rel=1e-9)
+
+
+def test_both_arms_move_as_their_kinematics_say(columns, robot, resolved):
+    """In the first frame both are at home; in every frame the tool is at the end of its link."""
+    damaged = apply(robot, damages_among(resolved.damages))
+    _, bones = columns("/improved/nominal/bones", "LineStrips3D:strips")
+    bones = np.reshape(bones, (-1, 8, 3))
+    _, joints = columns("/improved/nominal/joints", "Points3D:positions")
+    assert np.allclose(joints, bones)
+    wrist = placements(columns, "/improved/links/wrist_3_link")
+    offset = robot.arm.model.frames[robot.arm.model.getFrameId("tool0")].placement.homogeneous
+    tools = placements(columns, "/improved/links/tool")
+    assert np.allclose(wrist @ offset, tools, atol=1e-5)
+    assert np.allclose(bones[0], robot.arm.skeleton(robot.home[None])[0], atol=1e-6)
+    assert np.allclose(tools[0], damaged.forward(robot.home[None])[0], atol=1e-5)
+
+
 def test_the_nominal_arm_goes_where_it_is_sent_and_the_real_one_misses(
     columns, robot, resolved, goals
 ):
@@ -73,6 +98,18 @@ def test_the_nominal_arm_goes_where_it_is_sent_and_the_real_one_misses(
     for row, reached in ((0, landed), (-1, after)):
         ends = np.stack([goals[:, :3, 3], reached[:, :3, 3]], axis=1)
         assert np.allclose(misses[row], ends, atol=1e-5)
+
+
+def test_the_tool_goes_on_from_the_arm_and_fits_into_the_desired_pose(columns, robot):
+    (_, inmost), (tool, inside), (desired, outside) = (
+        [
+            np.array(columns(f"/improved/{part}", f"Boxes3D:{key}")[1][0])
+            for key in ("centers", "half_sizes")
+        ]
+        for part in ("nominal/tool", "tool", "target/pose")
+    )
+    assert (tool @ robot.outward > 0).all() and (tool == desired).all()
+    assert (inmost > 0).all() and (inmost < inside).all() and (inside < outside).all()
 
 
 def test_damaged_links_joints_and_base_are_yellow(columns):
@@ -108,6 +145,13 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(columns,
     _, radii = columns("/improved/map/cells", "Points3D:radii")
     assert np.argmax(radii[-1]) == np.linalg.norm(np.subtract(centres, last), axis=-1).argmin()
     assert np.max(radii[0]) == np.min(radii) > 0, "none has won yet"
+
+
+def test_the_legend_s_lines_are_below_each_other(columns):
+    (places,) = columns("/legend", "Points3D:positions")[1]
+    gaps = np.diff(places, axis=0)
+    assert len(gaps) > 2 and np.allclose(gaps, gaps[0], atol=1e-6) and gaps[0, 2] < 0
+    assert 0.02 < np.linalg.norm(gaps[0]) < 0.1, "m, of an arm of 1.3 m"
 
 
 def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot):
