@@ -147,13 +147,6 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(columns,
     assert np.max(radii[0]) == np.min(radii) > 0, "none has won yet"
 
 
-def test_the_legend_s_lines_are_below_each_other(columns):
-    (places,) = columns("/legend", "Points3D:positions")[1]
-    gaps = np.diff(places, axis=0)
-    assert len(gaps) > 2 and np.allclose(gaps, gaps[0], atol=1e-6) and gaps[0, 2] < 0
-    assert 0.02 < np.linalg.norm(gaps[0]) < 0.1, "m, of an arm of 1.3 m"
-
-
 def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot):
     random = np.random.default_rng(1)
     angles = robot.home + random.uniform(-0.4, 0.4, (3, POSES, 6))
