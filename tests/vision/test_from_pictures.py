@@ -1,5 +1,6 @@
 """From a printed board and pictures to a calibrated arm, by the commands of docs/pictures.md."""
 
+import os
 import re
 import shutil
 import struct
@@ -270,6 +271,7 @@ NO_PICTURES = {  # by name: what is in the file, and why it is refused
     "nu\0l.png": (None, "there is no such file"),
     300 * "x" + ".png": (None, "it is not a picture"),
     "..": (None, "there is no such file"),
+    "pipe.png": (None, "there is no such file"),
 }
 
 
@@ -284,6 +286,7 @@ def test_what_is_no_picture_is_refused_in_a_sentence(take_pictures, monkeypatch)
             table.write(f"{name},{row}\n")
             if content is not None:
                 (folder / name).write_bytes(content)
+    os.mkfifo(folder / "pipe.png")  # whoever opens it waits for ever
     known = observing.find_corners
     find = lambda board, grey: (known if grey.shape == (960, 1280) else find_corners)(board, grey)  # noqa: E731
     monkeypatch.setattr(observing, "find_corners", find)

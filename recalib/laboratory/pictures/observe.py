@@ -92,8 +92,9 @@ def observe(
 
 def pictures_in(folder: AnyPath) -> list[Path]:
     """The pictures in a folder, sorted by name with numbers by value: 2.png precedes 10.png."""
+    files = (path for path in Path(folder).iterdir() if path.is_file())  # a pipe may never end
     return sorted(
-        (path for path in Path(folder).iterdir() if cv2.haveImageReader(str(path))),
+        (path for path in files if cv2.haveImageReader(str(path))),
         key=lambda path: [
             int(part) if part.isdecimal() else part for part in DIGITS.split(path.name)
         ],
