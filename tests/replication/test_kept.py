@@ -55,12 +55,9 @@ def computed(study: Study, folder: Path) -> pd.DataFrame:
     """What is kept: a row for each column of the jobs' tables."""
     files, settings = trained(study, folder), settings_of(study, folder / "outcomes.csv")
     record(study, *files)
-    tables = {
-        "scenarios": pd.DataFrame([Resolved.read(path).model_dump() for path in files.scenarios])
-    }
-    tables |= {
-        name: pd.read_parquet(path) for name, path in zip(SCENARIOS, files.histories, strict=True)
-    }
+    scenarios = [Resolved.read(path).model_dump() for path in files.scenarios]
+    tables = dict(zip(SCENARIOS, map(pd.read_parquet, files.histories), strict=True))
+    tables["scenarios"] = pd.DataFrame(scenarios)
     mapping = measured.measure(study, files.scenarios, files.scenarios[0])
     tables |= dict(zip(MAPPING, mapping, strict=True))
     tables |= dict(zip(LEARNING, measured.learn(study, files.scenarios[0], settings), strict=True))
