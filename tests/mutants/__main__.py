@@ -29,7 +29,7 @@ from tests.mutants import operators
 from tests.mutants.judging import KILLED, STILLBORN, SURVIVED, Keep, import_all, judge
 from tests.mutants.nearest import Reach, nearest, reach
 from tests.mutants.page import difference, write_page
-from tests.mutants.parts import PARTS, modules
+from tests.mutants.parts import PARTS, THOROUGH, TIMES, modules
 
 ROOT, SEED = Path(__file__).parents[2], 2030
 KEPT = ROOT / "results" / "mutants"
@@ -141,7 +141,8 @@ def judge_part(part: str, count: int, again: bool, folder: Path) -> None:
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m tests.mutants", description=__doc__)
     parser.add_argument("parts", nargs="*", default=list(PARTS), metavar="PART")
-    parser.add_argument("--count", type=int, default=100, help="of mutants, in each part")
+    counted = "of mutants in each part, five times as many where an arm moves or an error is stated"
+    parser.add_argument("--count", type=int, default=20, help=counted)
     parser.add_argument("--again", action="store_true", help="those that survived")
     options = parser.parse_args(arguments)
     operators.register()
@@ -150,7 +151,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     copy_of_the_project(copy)
     os.chdir(copy)  # what is edited meanwhile changes nothing
     for part in options.parts:
-        judge_part(part, options.count, options.again, copy)
+        count = options.count * (TIMES if part in THOROUGH else 1)
+        judge_part(part, count, options.again, copy)
     sessions = {part: session_file(part) for part in PARTS}
     if missing := [part for part, path in sessions.items() if not path.exists()]:
         print(f"docs/mutants.md stays as it is: {', '.join(missing)} must be judged first")

@@ -77,6 +77,8 @@ PARTS = {
         ),
     ),
 }
+# Of what moves an arm or states an error more mutants are judged.
+THOROUGH, TIMES = ("identification", "moving", "laboratory"), 5
 # Not judged: replication/plots, since figures are inspected by eye and their numbers come from
 # judgement; the rest of replication and recalib, which reads and writes files and finds names, so
 # that lists of mistakes test its messages; workflow, which calls functions: whole runs test it.
