@@ -33,6 +33,7 @@ from .identification.model.error_model import JOINT_WAVES as JOINT_WAVES
 from .identification.model.error_model import OFFSETS as OFFSETS
 from .identification.model.observations import Distance as Distance
 from .identification.model.observations import Observations as Observations
+from .laboratory.calibrate import Calibrated as Calibrated
 from .laboratory.calibrate import calibrate as calibrate
 from .laboratory.calibrate import calibrate_arm as calibrate_arm
 from .laboratory.correction import Commands as Commands
@@ -43,7 +44,6 @@ from .laboratory.live.session import LiveSettings as LiveSettings
 from .laboratory.live.session import calibrate_live as calibrate_live
 from .laboratory.pictures.sessions import calibrate_pictures as calibrate_pictures
 from .laboratory.reaching import NotReached as NotReached
-from .laboratory.results import Calibrated as Calibrated
 from .laboratory.tables.description import Description as Description
 from .laboratory.tables.description import read_description as read_description
 from .learners.corrections import GaussianProcessLearner as GaussianProcessLearner

@@ -20,7 +20,8 @@ from recalib.laboratory.data_set import DataSet, data_set
 from recalib.laboratory.plausibility.knowledge import check_distances, frames_of, mistake_in
 from recalib.laboratory.plausibility.mistakes import check_nominal
 from recalib.laboratory.report.doubts import fault_in_words, gain_in_words
-from recalib.laboratory.results import Calibrated, without_shift
+from recalib.laboratory.report.summary import summary
+from recalib.laboratory.results import Results, without_shift
 from recalib.laboratory.tables.columns import SOCKETS, TARGETS, TIMES, Columns
 from recalib.laboratory.tables.description import Description, distances_of, read_description
 from recalib.laboratory.tables.measurements import Measurements, check_measured, read_measurements
@@ -32,6 +33,14 @@ from recalib.spelling import counted
 
 Progress = Callable[[str], None]
 ARRAYS = Path("the arrays")  # the name of measurements without a file in messages
+
+
+class Calibrated(Results):
+    """A calibrated arm: `summary()`, `predict(joints)`, `correct(poses)`."""
+
+    def summary(self) -> str:
+        """The printed summary: errors before and after, and the identified arm."""
+        return summary(self)
 
 
 def calibrate(

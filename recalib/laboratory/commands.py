@@ -15,7 +15,7 @@ from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import check_new, write_new
 from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
-from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
 from recalib.laboratory.hand_eye.pose_table import convention_of, read_poses
 from recalib.laboratory.live.allowed import Box
@@ -24,7 +24,6 @@ from recalib.laboratory.propose import propose, useful
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report.folder import files_of
 from recalib.laboratory.report.templates import UNITS, render
-from recalib.laboratory.results import Calibrated
 from recalib.laboratory.tables.columns import TARGETS
 from recalib.laboratory.tables.description import within
 from recalib.laboratory.tables.measurements import STILL, pose_rows, postures_table, read_desired

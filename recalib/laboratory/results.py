@@ -12,6 +12,7 @@ from recalib.errors import InvalidSetting, check_name
 from recalib.identification.calibration import Calibration, turned
 from recalib.identification.checks.gains import WrongGain, wrong_gain
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
+from recalib.identification.checks.misplaced import misplaced
 from recalib.identification.checks.outliers import Exchanged, exchanged
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import LAG, Fault, faults
@@ -40,8 +41,8 @@ def without_shift(found: Sequence[Fault], mistake: str | None) -> list[Fault]:
 
 
 @dataclass(frozen=True)
-class Calibrated:
-    """A calibrated arm: `summary()`, `predict(joints)`, `correct(poses)`."""
+class Results:
+    """A calibrated arm."""
 
     urdf: UrdfFile | None  # of the nominal arm; None if there is none
     data: DataSet
@@ -51,12 +52,6 @@ class Calibrated:
     scales: Mapping[str, Scale]
     mistake: str | None  # the likely mistake in the rows, in words; see `mistake_in`
     offset: str | None  # between the controller's positions and the URDF's kinematics, in words
-
-    def summary(self) -> str:
-        """The printed summary: errors before and after, and the identified arm."""
-        from recalib.laboratory.report.summary import summary  # it imports this class
-
-        return summary(self)
 
     def predict(self, joints: ArrayLike, target: str | None = None) -> np.ndarray:
         """Predicted measurements: poses (n, 4, 4) [m] of a target in the instrument's frame.
@@ -193,6 +188,14 @@ class Calibrated:
     def exchanged(self) -> Exchanged | None:
         """Outliers whose measurements fit the joints of other rows."""
         return exchanged(self.geometry, self.data.observations)
+
+    @cached_property
+    def misplaced(self) -> list[tuple[str, np.ndarray]]:
+        """Frames that are not where they are stated to be, and how far they are off [m, rad]."""
+        if self.validation.postures.still.any():  # its joint's error looks like a misplaced frame
+            return []
+        rows = self.data.observations[self.validation.counted]
+        return [*misplaced(self.geometry, self.frames, rows)]
 
     @cached_property
     def wrong_gain(self) -> WrongGain | None:

@@ -1,6 +1,7 @@
 """Compiled loops of learners whose cells hold theta and Jacobians: equations (1) to (9).
 
-Each function handles all runs in one call.
+Each function handles all runs in one call. All are in one file because Numba's cache checks only
+the file of the called function for changes, not the files of functions that it calls in turn.
 
 An iteration updates every cell, but reads only one cell of each map. So updates are queued, and
 `recalib.learners.hierarchical` applies `WAITING` of them at once, as one matrix product. A cell

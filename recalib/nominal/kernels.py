@@ -1,7 +1,8 @@
 """Compiled loops over poses and postures: coordinates, forward and inverse kinematics, moves.
 
 Each function handles all runs in one call, and computes every pose independently: its result does
-not depend on other poses in the call, to the last bit.
+not depend on other poses in the call, to the last bit. All functions are in one file because
+Numba's cache checks only the file of the called function for changes, not the files of others.
 
 A pose is three rows of a homogeneous matrix. Every joint turns about, or slides along, the z axis
 of its frame: `recalib.nominal.chain` rotates an arm's frames accordingly.

@@ -37,25 +37,20 @@ def result(
         parameters=np.zeros(size) if parameters is None else parameters, covariance=np.eye(size)
     )
     geometry = SimpleNamespace(model=MODEL, estimate=estimate)
-    validation = SimpleNamespace(
-        chosen=chosen,
-        mean_error=lambda way, kind: errors[way, kind],
-        counted=np.ones(ROWS, dtype=bool),
-        postures=SimpleNamespace(still=np.zeros(6, dtype=bool)),
-    )
+    validation = SimpleNamespace(chosen=chosen, mean_error=lambda way, kind: errors[way, kind])
     return SimpleNamespace(
         validation=validation,
         faults=faults,
         data=DataSet(Observations(np.zeros((ROWS, 6)), times=times)),
         parameters=parameters_of(MODEL, estimate),
-        frames=Frames(base_unknown=True, targets_unknown=True),
-        arm=MODEL.nominal,
+        frames=Frames(),
         geometry=geometry,
         scales={},
         mistake=None,
         mistaken=None,
         wrong_gain=None,
         exchanged=None,
+        misplaced=[],
         unseen=0,
         directions=[],
     )

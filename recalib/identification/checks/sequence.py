@@ -102,8 +102,8 @@ def _faults(geometry: Calibration, observations: Observations, power: int) -> li
         kind, rows, columns, _ = candidate
         series = np.cumsum(observations.series == observations.series[rows[first]]) - 1
         back = int(series[rows[last]]) if last < len(rows) else 0
-        ends = int(series[rows[first]]), float(turn), int(observations.targets[rows[first]]), back
-        found.append(Fault(kind, float(size), *ends))
+        row, sight = int(series[rows[first]]), int(observations.targets[rows[first]])
+        found.append(Fault(kind, float(size), row, float(turn), sight, back))
         further = np.zeros((*residuals.shape, columns.shape[-1]))
         further[rows[first:last]] = columns[first:last]
         arm = np.concatenate([arm, further], axis=2)
@@ -163,7 +163,7 @@ def jumps(count: int) -> np.ndarray:
     return np.stack([firsts, np.full(len(firsts), count)], axis=1)
 
 
-def _stays(count: int) -> np.ndarray:
+def _excursions(count: int) -> np.ndarray:
     """Windows of enough rows between other rows, from and to at most `CUTS` places."""
     cuts = np.unique(np.linspace(1, count - 1, CUTS).astype(int))
     pairs = np.stack(np.meshgrid(cuts, cuts), axis=-1).reshape(-1, 2)
@@ -198,7 +198,7 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[C
     for kind, numbers, columns in ((JUMP, instruments, moved), (SLIP, targets, slipped)):
         for number in np.unique(numbers):
             for rows in _orders(np.flatnonzero(numbers == number), observations.series, along):
-                for windows in jumps(len(rows)), _stays(len(rows)):
+                for windows in jumps(len(rows)), _excursions(len(rows)):
                     yield Candidate(kind, rows, columns[rows], windows)
 
 
@@ -246,8 +246,7 @@ class Unexplained:
             return 0.0, np.zeros(2, dtype=int), np.zeros(columns.shape[-1])
         firsts, lasts = windows.T
         sums = (np.concatenate([0 * part[:1], np.cumsum(part, axis=0)]) for part in products)
-        sums = (part[lasts] - part[firsts] for part in sums)
-        information, across, gradient = sums
+        information, across, gradient = (part[lasts] - part[firsts] for part in sums)
         absorbed = self._solve(across.reshape(-1, across.shape[-1]).T).T.reshape(across.shape)
         information = information - absorbed @ across.swapaxes(1, 2)
         gradient = gradient - absorbed @ self._gradient

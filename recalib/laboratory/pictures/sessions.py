@@ -18,11 +18,10 @@ from recalib.files.quantities import NUMBER, Quantity
 from recalib.files.storage import path_of, read_toml
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import BOARD, Optics
-from recalib.laboratory.calibrate import Progress, identified, opened
+from recalib.laboratory.calibrate import Calibrated, Progress, identified, opened
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.options import CAMERAS, IN_HAND
 from recalib.laboratory.pictures.observed import CORNERS, LENS, NAME, OBSERVED, SETUP, doubt_of
-from recalib.laboratory.results import Calibrated
 from recalib.laboratory.tables.columns import PICTURE, PICTURES, TEXT, TIMES, Columns
 from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.measurements import Measurements, read_joints

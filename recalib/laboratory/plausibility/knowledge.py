@@ -53,8 +53,8 @@ def checked_frames(arm: Arm, observations: Observations, known: Description) -> 
         if mistake is None and observations.kinds == 2:
             with suppress(NoInitialEstimate):
                 initial_frames(arm, replace(observations, measured=observations.positions))
-                mistake = "rotations of another frame or in another notation, or the last joint"
-                mistake += "; positions alone fit"
+                turned = "rotations of another frame or in another notation"
+                mistake = f"{turned}, or the last joint; positions alone fit"
         raise NoInitialEstimate(f"{problem}; likely: {mistake}") if mistake else problem
     likely = [wrong for wrong in errors if errors[wrong] <= ALIKE * min(errors.values())]
     wrong = min(likely, key=lambda names: (len(names), errors[names]))

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from recalib.identification.checks.gains import WrongGain
-from recalib.identification.checks.misplaced import misplaced
 from recalib.identification.checks.postures import turned_axes
 from recalib.identification.checks.sequence import Fault
 from recalib.identification.model.frames import HELD, Frames
@@ -13,7 +12,7 @@ from recalib.identification.parameters import Parameter
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.templates import render
-from recalib.laboratory.results import Calibrated
+from recalib.laboratory.results import Results
 from recalib.nominal.kinematics import Arm
 
 RESIZED = 0.015  # of a size: all links together are seldom longer by more
@@ -25,13 +24,11 @@ CONTRADICTED = 2.0  # times the error at random: larger errors contradict it
 MOST = 6  # rows to list
 
 
-def doubts(result: Calibrated) -> list[str]:
+def doubts(result: Results) -> list[str]:
     """Warnings, the gravest first."""
     ends = [words for one, words in result.directions if not one.lasting]
     gain = None if result.mistake else result.wrong_gain
     joints = result.data.observations.joints
-    rows = result.data.observations[result.validation.counted]
-    any_still = result.validation.postures.still.any()  # its error looks like a misplaced frame
     lines = render(
         "doubts.txt.j2",
         result=result,
@@ -39,7 +36,6 @@ def doubts(result: Calibrated) -> list[str]:
         gain=gain and gain_in_words(gain, result.arm),
         outvoted=[*_outvoted(result)],
         worn=_worn(result),
-        misplaced=[] if any_still else misplaced(result.geometry, result.frames, rows),
         axes=turned_axes(result.arm.forward(joints)) if result.unseen else (),
         open_here=sorted(ends, key=lambda words: not any(end in words for end in ENDS)),
         resized=[*_resized(result)],
@@ -72,7 +68,7 @@ def gain_in_words(wrong: WrongGain, arm: Arm) -> str:
     return render("gain.txt.j2", wrong=wrong, joints=arm.joints).strip()
 
 
-def _outvoted(result: Calibrated) -> Iterator[tuple[str, int, int]]:
+def _outvoted(result: Results) -> Iterator[tuple[str, int, int]]:
     """Cameras that the others contradict: name, number of outlying pictures, number of all."""
     series, names = result.data.observations.series, result.data.sight_names
     for number, name in enumerate(names if len(result.data.tables) > 1 else []):
@@ -81,7 +77,7 @@ def _outvoted(result: Calibrated) -> Iterator[tuple[str, int, int]]:
             yield name, int(outliers), int(rows)
 
 
-def _worn(result: Calibrated) -> tuple[Parameter, float] | None:
+def _worn(result: Results) -> tuple[Parameter, float] | None:
     """The joint or link error that exceeds its prior deviation most, and the ratio, if > `WORN`."""
     model = result.geometry.model
     ratios = result.geometry.estimate.parameters / model.deviations
@@ -91,7 +87,7 @@ def _worn(result: Calibrated) -> tuple[Parameter, float] | None:
     return (result.parameters[largest], ratios[largest]) if ratios[largest] > WORN else None
 
 
-def _resized(result: Calibrated) -> Iterator[tuple[str, float, bool]]:
+def _resized(result: Results) -> Iterator[tuple[str, float, bool]]:
     """Sizes that differ from the description, if the URDF's links are right: percent, and sign.
 
     Printers often change the scale, instruments seldom.
@@ -102,7 +98,7 @@ def _resized(result: Calibrated) -> Iterator[tuple[str, float, bool]]:
             yield what, 100 * abs(factor - 1), factor > 1
 
 
-def _contradicted(result: Calibrated) -> tuple[float, float, float] | None:
+def _contradicted(result: Results) -> tuple[float, float, float] | None:
     """Errors at random, in blocks and of geometry [mm] if the last two contradict the first."""
     if result.validation.chosen != HYBRID:
         return None

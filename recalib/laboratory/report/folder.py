@@ -17,7 +17,7 @@ from recalib.laboratory.correction import NAME, Correction
 from recalib.laboratory.places import Place, hand_eye_places
 from recalib.laboratory.report.summary import DOING, errors_table, pixel_error, summary, verdict
 from recalib.laboratory.report.templates import render
-from recalib.laboratory.results import Calibrated
+from recalib.laboratory.results import Results
 from recalib.laboratory.tables.table import table_text
 from recalib.laboratory.urdf.universal_robots import kinematics_yaml
 from recalib.nominal.arms import arm_of
@@ -26,7 +26,7 @@ URDF, HAND_EYE = "arm.urdf", "hand_eye.toml"
 PROBES, ROUNDING = 10, 1e-9  # random postures to compare files at; largest difference [m, rad]
 
 
-def files_of(result: Calibrated) -> dict[str, bytes]:
+def files_of(result: Results) -> dict[str, bytes]:
     """All files of a calibration by name, in the order of listing.
 
     The URDF and the correction are read back. Raises InvalidFile if their forward kinematics
@@ -47,7 +47,7 @@ def files_of(result: Calibrated) -> dict[str, bytes]:
     return files
 
 
-def _calibration(result: Calibrated) -> dict[str, bytes]:
+def _calibration(result: Results) -> dict[str, bytes]:
     geometry, (urdf, tool), data = result.geometry, result.corrected, result.data
     parameters = result.identified
     frames = geometry.frames
@@ -73,7 +73,7 @@ def _calibration(result: Calibrated) -> dict[str, bytes]:
     return files | {"parameters.json": (json.dumps(values, indent=2) + "\n").encode()}
 
 
-def _check(result: Calibrated, files: dict[str, bytes]) -> None:
+def _check(result: Results, files: dict[str, bytes]) -> None:
     """Raise InvalidFile unless the arms read back from the files are the calibrated ones."""
     low, high = (end(result.data.observations.joints, axis=0) for end in (np.min, np.max))
     joints = np.random.default_rng(0).uniform(low, high, (PROBES, len(low)))
@@ -92,7 +92,7 @@ def _check(result: Calibrated, files: dict[str, bytes]) -> None:
             raise InvalidFile(name, f"{reason} this with the URDF")
 
 
-def _frame(place: Place, result: Calibrated) -> dict[str, Any]:
+def _frame(place: Place, result: Results) -> dict[str, Any]:
     """The cells of an identified place; unknown values are empty."""
     fit = DOING[GEOMETRIC if result.worthwhile else NOTHING]
     numbers = {
@@ -110,7 +110,7 @@ def _frame(place: Place, result: Calibrated) -> dict[str, Any]:
     return {"frame": place.name, "in": place.link} | known | {"fit": fit}
 
 
-def _rows(result: Calibrated) -> Iterator[dict[str, Any]]:
+def _rows(result: Results) -> Iterator[dict[str, Any]]:
     """For each row, its held-out errors before and after, and its weight."""
     validation, weights = result.validation, result.geometry.estimate.weights
     before, after = (
@@ -127,7 +127,7 @@ def _rows(result: Calibrated) -> Iterator[dict[str, Any]]:
         }
 
 
-def hand_eye(result: Calibrated) -> str:
+def hand_eye(result: Results) -> str:
     """A TOML with all frames and held-out errors, and again with the nominal arm taken as exact."""
     validation = result.validation
     held_out = {way: validation.held_out[way][validation.chosen] for way in WAYS}
@@ -144,7 +144,7 @@ def hand_eye(result: Calibrated) -> str:
 
 
 def _arm_as_right(
-    result: Calibrated, held_out: Mapping[str, HeldOut]
+    result: Results, held_out: Mapping[str, HeldOut]
 ) -> tuple[list[Place], dict[str, HeldOut]]:
     """Places of cameras and boards if the nominal arm is exact, and their errors in the same folds.
 

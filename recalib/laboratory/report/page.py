@@ -12,7 +12,7 @@ from matplotlib.ticker import NullLocator
 
 from recalib.laboratory.report.summary import errors_table, notes, verdict
 from recalib.laboratory.report.templates import UNITS, render
-from recalib.laboratory.results import Calibrated
+from recalib.laboratory.results import Results
 
 COLOURS, GREY = {"before": "#D55E00", "after": "#0072B2"}, "#999"
 WIDTH = 9.6  # inches
@@ -33,7 +33,7 @@ STYLE: dict[Any, Any] = {
 
 
 @rc_context(STYLE)
-def draw_errors(result: Calibrated) -> str:
+def draw_errors(result: Results) -> str:
     """The cumulative distribution of errors, before and after."""
     kinds = result.calibration.estimate.noise.size
     figure, panels = figure_of(2.8, 1, kinds)
@@ -47,7 +47,7 @@ def draw_errors(result: Calibrated) -> str:
 
 
 @rc_context(STYLE)
-def draw_over_joints(result: Calibrated) -> str:
+def draw_over_joints(result: Results) -> str:
     """Position errors over each joint's coordinate, before and after."""
     joints, arm = result.data.observations.joints[result.counted], result.arm
     rows = -(-len(arm.joints) // COLUMNS)
@@ -73,7 +73,7 @@ def draw_over_joints(result: Calibrated) -> str:
 
 
 @rc_context(STYLE)
-def draw_arm(result: Calibrated) -> tuple[str, float]:
+def draw_arm(result: Results) -> tuple[str, float]:
     """The arm in a middle posture, from the side and from above, with positions and their errors.
 
     Everything is drawn in the arm's base. Also returns the magnification of the errors.
@@ -101,7 +101,7 @@ def draw_arm(result: Calibrated) -> tuple[str, float]:
     return svg_of(figure), longer
 
 
-def _errors(result: Calibrated, kind: int, scale: float) -> dict[str, np.ndarray]:
+def _errors(result: Results, kind: int, scale: float) -> dict[str, np.ndarray]:
     """Errors (n,) before and after of position (kind 0) or orientation (kind 1), times a scale."""
     part = slice(3 * kind, 3 * kind + 3)
     return {
@@ -134,7 +134,7 @@ def svg_of(figure: Figure) -> str:
     return text.getvalue()[text.getvalue().index("<svg") :]
 
 
-def page_of(result: Calibrated) -> bytes:
+def page_of(result: Results) -> bytes:
     parameters = result.identified
     decided = [parameter for parameter in parameters if parameter["decided_by"] == "data"]
     decided.sort(key=lambda parameter: -abs(parameter["value"]) / parameter["deviation"])

@@ -4,7 +4,8 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from recalib.laboratory.results import Calibrated
+from recalib.errors import InvalidSetting
+from recalib.laboratory.results import Results
 from recalib.laboratory.scene import ARM, GREY, ROW, THICK, log_meshes, send_arm
 from recalib.spelling import counted
 
@@ -12,13 +13,14 @@ COLOURS = {"before": (213, 94, 0), "after": (0, 114, 178)}
 LONGEST = 0.12  # m: the drawn length of the largest error
 
 
-def recording_of(result: Calibrated) -> tuple[bytes, str]:
+def recording_of(result: Results) -> tuple[bytes, str]:
     """The recording of a calibration, in the arm's base, and a remark about missing parts.
 
     If Rerun cannot read the URDF, which happens with some that Pinocchio reads, the recording is
-    empty.
+    empty. Raises InvalidSetting without a URDF.
     """
-    assert result.urdf is not None
+    if result.urdf is None:
+        raise InvalidSetting("urdf", None, "the file of the arm; try: calibrate_arm")
     positions, residuals = result.positions, result.residuals
     longer = float(f"{LONGEST / np.linalg.norm(residuals['before'][:, :3], axis=1).max():.0e}")
     rr.set_strict_mode(True)  # else errors are only warnings, and the recording is incomplete

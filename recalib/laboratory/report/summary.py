@@ -17,7 +17,7 @@ from recalib.identification.validation import (
 )
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.templates import UNITS, render
-from recalib.laboratory.results import Calibrated
+from recalib.laboratory.results import Results
 from recalib.spelling import counted
 
 DOING = {
@@ -41,7 +41,7 @@ class ErrorRow(NamedTuple):
     largest: float
 
 
-def errors_table(result: Calibrated) -> list[ErrorRow]:
+def errors_table(result: Results) -> list[ErrorRow]:
     """Held-out errors of position and rotation, for each way of folding and each correction.
 
     The last rows show the outliers, which all other rows leave out.
@@ -63,7 +63,7 @@ def errors_table(result: Calibrated) -> list[ErrorRow]:
     return rows
 
 
-def verdict(result: Calibrated) -> str:
+def verdict(result: Results) -> str:
     """The headline of a calibration, then its warnings."""
     chosen, omitted = result.validation.chosen, np.sum(~result.validation.counted)
     without = f", {omitted} of {len(result.data)} rows left out as outliers" if omitted else ""
@@ -83,23 +83,23 @@ def verdict(result: Calibrated) -> str:
     return " ".join([headline, *doubts(result)])
 
 
-def subject(result: Calibrated) -> str:
+def subject(result: Results) -> str:
     arm = result.arm
     name = result.urdf.origin if result.urdf else f"an arm of {len(arm.joints)} joints"
     return f"{name}, {arm.tool} in {arm.base}"
 
 
-def summary(result: Calibrated) -> str:
+def summary(result: Results) -> str:
     texts = {"subject": subject(result), "verdict": verdict(result)}
     return render("summary.txt.j2", **texts, errors=errors_table(result), **_facts(result))
 
 
-def notes(result: Calibrated) -> list[str]:
+def notes(result: Results) -> list[str]:
     """Further facts about a calibration, one for each line."""
     return [subject(result), *render("notes.txt.j2", **_facts(result)).splitlines()]
 
 
-def _facts(result: Calibrated) -> dict[str, object]:
+def _facts(result: Results) -> dict[str, object]:
     """The values of the templates."""
     data, anywhere = result.data, []
     for one, words in (pair for pair in result.directions if pair[0].lasting):
@@ -121,7 +121,7 @@ def _facts(result: Calibrated) -> dict[str, object]:
     }
 
 
-def _cameras(result: Calibrated) -> Iterator[tuple[str, float, float]]:
+def _cameras(result: Results) -> Iterator[tuple[str, float, float]]:
     """For each sight, mean corner errors [px] in held-out pictures: corrected, and nominal."""
     sights, held_out = result.data.observations.targets, result.validation.held_out[BLOCKWISE]
     for sight, name in enumerate(result.data.sight_names):
@@ -137,7 +137,7 @@ def pixel_error(held_out: HeldOut, rows: np.ndarray) -> float:
     return float(held_out.optics.moved(held_out.residuals)[rows].mean())
 
 
-def _joints(result: Calibrated) -> Iterator[dict[str, object]]:
+def _joints(result: Results) -> Iterator[dict[str, object]]:
     """The measured range of each joint, and its limits [unit]."""
     arm, still = result.arm, result.validation.postures.still
     limits = arm.model.lowerPositionLimit, arm.model.upperPositionLimit
