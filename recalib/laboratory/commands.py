@@ -71,15 +71,13 @@ def calibrate_poses(options: Options) -> int:
     """Write a folder with the poses of camera and board, without a URDF."""
     if (options.pictures is None) == (options.targets is None):
         raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
-    calibrating = import_module("recalib.laboratory.hand_eye.calibrating")
     inverse, in_hand = options.inverse or (), options.camera == IN_HAND
     flange = read_poses(options.poses, options.convention, options.unit, "flange" in inverse)
-    if options.targets is None:
-        given = options.pictures, options.board, options.lens, in_hand, print_progress
-        shown = calibrating.pictures_at(flange, *given)
-    else:
-        settings = options.target_convention, options.unit, "targets" in inverse, True
-        shown = read_poses(options.targets, *settings)
+    settings = options.target_convention, options.unit, "targets" in inverse, True
+    targets = options.targets and read_poses(options.targets, *settings)
+    calibrating = import_module("recalib.laboratory.hand_eye.calibrating")  # needs OpenCV
+    given = options.pictures, options.board, options.lens, in_hand, print_progress
+    shown = targets or calibrating.pictures_at(flange, *given)
     height = options.height and within("--height", options.height, LENGTH, 1e-4)
     files, good = calibrating.calibrate_poses(flange, shown, in_hand, height, print_progress)
     return _written(options.out, files, good)

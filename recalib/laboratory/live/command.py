@@ -45,6 +45,8 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
         raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
     if given.board is None and (given.lens or given.camera):
         raise InvalidSetting("--board", None, "a board for --lens and --camera")
+    if given.board and given.lens is None:
+        raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
     opening: Callable[[], Station] = partial(open_station, given.station)
     pictures: BoardInPictures | None = None
     if given.board is not None:
@@ -88,8 +90,6 @@ def _with_board(
     from recalib.vision.boards import read_board
     from recalib.vision.lenses import read_lens
 
-    if given.lens is None:
-        raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
     board, lens = read_board(given.board), read_lens(given.lens)
     pictures = BoardInPictures(board, lens, given.camera == IN_HAND)
     return lambda: PicturesOfABoard(opening(), pictures), pictures
