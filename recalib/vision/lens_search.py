@@ -106,7 +106,7 @@ def _straight(views: Sequence[View], size: tuple[int, int], fisheye: bool) -> Le
         Lens(size, np.array([[focal, 0, x], [0, focal, y], [0, 0, 1]]), np.zeros(4), fisheye)
         for focal in max(size) * np.array(FOCAL_LENGTHS)
     ]
-    return min(lenses, key=lambda lens: _squares(lens, views[some]))
+    return min(lenses, key=lambda lens: _posed(lens, views[some])[0])
 
 
 def _best_from(views: Sequence[View], lens: Lens) -> FoundLens:
@@ -119,8 +119,9 @@ def _best_from(views: Sequence[View], lens: Lens) -> FoundLens:
             break
         damped = precision + damping * np.diag(precision.diagonal())
         moved = moved_lens(lens, np.linalg.solve(damped, here.gradient))
-        if moved and _squares(moved, views, here.poses) < here.squares:
-            lens, here, damping = moved, _normal(views, moved, here.poses), damping / 10
+        squares, poses = _posed(moved, views, here.poses) if moved else (np.inf, [])
+        if moved and squares < here.squares:
+            lens, here, damping = moved, _normal(views, moved, poses), damping / 10
         elif damping < STIFFEST:
             damping *= 10
         else:
@@ -162,18 +163,23 @@ def _precision(lens: Lens, found: _Normal) -> np.ndarray:
 def reprojection_error(views: Sequence[View], lens: Lens) -> float:
     """The rms reprojection error [px], as `FoundLens.error`; infinite if it cannot see corners."""
     free = sum(2 * len(view.numbers) - 6 for _, view in views)
-    return float(np.sqrt(_squares(lens, views) / free))
+    return float(np.sqrt(_posed(lens, views)[0] / free))
 
 
-def _squares(lens: Lens, views: Sequence[View], starts: Sequence[np.ndarray | None] = ()) -> float:
-    """The sum [px^2] of squared reprojection errors; infinite if a lens cannot see the corners."""
-    total = 0.0
+def _posed(
+    lens: Lens, views: Sequence[View], starts: Sequence[np.ndarray | None] = ()
+) -> tuple[float, list[np.ndarray]]:
+    """The sum [px^2] of squared reprojection errors, infinite if a lens cannot see the corners.
+
+    With the best pose (4, 4) [m] of the board in each view.
+    """
+    total, poses = 0.0, []
     for (board, view), start in zip(views, starts or [None] * len(views), strict=True):
-        pose = board_pose(board, lens, view, start)
-        if not np.isfinite(pose).all():
-            return np.inf
-        total += float(np.sum(reprojection(board, lens, view, pose) ** 2))
-    return total
+        poses.append(board_pose(board, lens, view, start))
+        if not np.isfinite(poses[-1]).all():
+            return np.inf, poses
+        total += float(np.sum(reprojection(board, lens, view, poses[-1]) ** 2))
+    return total, poses
 
 
 def moved_lens(lens: Lens, step: np.ndarray) -> Lens | None:

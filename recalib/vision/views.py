@@ -13,7 +13,7 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from recalib.identification.model.linearisation import displaced
+from recalib.identification.model.linearisation import crosses
 from recalib.identification.model.optics import BOARD, Optics
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
@@ -42,34 +42,39 @@ def board_pose(
     start nearby saves time.
     """
     points, pixels = board.points[view.numbers], view.pixels
-    pose = _first_pose(points, lens, pixels) if start is None else start
-    expected, slopes = projected(points, lens, pose)
+    found = _first_pose(points, lens, pixels) if start is None else _vector(start)
+    expected, slopes = _project(points, lens, found)
     residuals = (pixels - expected).ravel()
     for _ in range(STEPS):
-        by_pose = _derivatives(points, slopes, pose, False)[0]
+        by_pose = slopes[:, :6]
         information = by_pose.T @ by_pose
         if not np.isfinite(information).all():
             return np.full((4, 4), np.nan)
         step = np.linalg.lstsq(information, by_pose.T @ residuals, rcond=None)[0]
-        moved = displaced(pose, step)
-        expected, slopes_there = projected(points, lens, moved)
+        moved = found + step
+        expected, slopes_there = _project(points, lens, moved)
         there = (pixels - expected).ravel()
         if not there @ there < residuals @ residuals:
             break
-        pose, residuals, slopes = moved, there, slopes_there
+        found, residuals, slopes = moved, there, slopes_there
         if np.abs(step).max() < SMALL:
             break
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = cv2.Rodrigues(found[:3])[0], found[3:]
     return pose
 
 
 def _first_pose(points: np.ndarray, lens: Lens, pixels: np.ndarray) -> np.ndarray:
-    """An approximate pose (4, 4) [m] of the board, from the directions of the pixels."""
+    """An approximate pose of the board, as in `_vector`, from the directions of the pixels."""
     module = cv2.fisheye if lens.fisheye else cv2
     rays = module.undistortPoints(pixels[:, None], lens.matrix, lens.distortion)
     _, turn, place = cv2.solvePnP(points, rays, np.eye(3), None, flags=cv2.SOLVEPNP_IPPE)
-    pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = cv2.Rodrigues(turn)[0], place.ravel()
-    return pose
+    return np.concatenate([turn, place]).ravel()
+
+
+def _vector(pose: np.ndarray) -> np.ndarray:
+    """A pose (4, 4) as OpenCV's parameters (6,): the vector of its rotation, and its position."""
+    return np.concatenate([cv2.Rodrigues(pose[:3, :3])[0].ravel(), pose[:3, 3]])
 
 
 def reprojection(board: Board, lens: Lens, view: Corners, pose: np.ndarray) -> np.ndarray:
@@ -181,7 +186,12 @@ def projected(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndar
 
     The derivatives are by the pose, in OpenCV's parameters, and by the parameters of the lens.
     """
-    turn, place = cv2.Rodrigues(pose[:3, :3])[0], pose[:3, 3]
+    return _project(points, lens, _vector(pose))
+
+
+def _project(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The same for a pose as in `_vector`."""
+    turn, place = pose[:3], pose[3:]
     if lens.fisheye:
         args = points[:, None], turn, place, lens.matrix, lens.distortion
         pixels, slopes = cv2.fisheye.projectPoints(*args)
@@ -217,7 +227,7 @@ def _derivatives(
         by_place = -by_place @ pose[:3, :3]
     else:
         levers = points @ pose[:3, :3].T
-    by_turn = np.cross(levers[:, None], by_place)
+    by_turn = by_place @ crosses(-levers)
     by_pose = np.concatenate([by_place, by_turn], axis=-1).reshape(-1, 6)
     by_point = slopes[:, 3:6].reshape(-1, 2, 3) @ pose[:3, :3]
     by_scale = by_point[..., :2] * points[:, None, :2]

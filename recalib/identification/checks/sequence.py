@@ -20,7 +20,7 @@ from recalib.identification.calibration import Calibration
 from recalib.identification.checks.postures import find_postures
 from recalib.identification.estimation import identify
 from recalib.identification.model.error_model import JOINT_ERRORS, ErrorModel
-from recalib.identification.model.linearisation import Linearisation, displacements
+from recalib.identification.model.linearisation import Linearisation, crosses, displacements
 from recalib.identification.model.observations import Observations
 
 LAG, DRIFT, GROWTH, JUMP, SLIP = "lag", "drift", "growth", "jump", "slip"
@@ -293,6 +293,5 @@ def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:
     for number in np.unique(instruments):
         rows = instruments == number
         places = poses[rows, :3, 3]
-        levers = (places - places.mean(axis=0))[:, None]
-        columns[rows, :3, 3:] = np.cross(np.eye(3), levers).swapaxes(1, 2)
+        columns[rows, :3, 3:] = -crosses(places - places.mean(axis=0))
     return columns

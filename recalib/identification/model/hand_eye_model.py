@@ -21,7 +21,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.model.linearisation import LEVER, displacements
+from recalib.identification.model.linearisation import LEVER, crosses, displacements
 from recalib.identification.model.optics import Optics
 
 CAMERA, TARGET = slice(6), slice(6, 12)  # the indices of the camera's and the board's parameters
@@ -158,7 +158,7 @@ class LinearHandEye:
         self.residuals = found.residuals(sights)
         slopes = np.zeros((len(sights), 6, ENDS + len(found.optics)))
         slopes[:, :3, :3] = slopes[:, 3:, 3:6] = -to_camera
-        slopes[:, :3, 3:6] = _crosses(predicted[:, :3, 3]) @ to_camera
+        slopes[:, :3, 3:6] = crosses(predicted[:, :3, 3]) @ to_camera
         slopes[:, :3, 6:9] = slopes[:, 3:, 9:12] = from_board
         slopes[..., ENDS:] = -sights.corners.slopes
         self.slopes = slopes
@@ -168,7 +168,7 @@ class LinearHandEye:
         turn = from_board if sights.in_hand else to_camera  # from the base frame to the camera's
         self.by_flange = np.zeros((len(sights), 6, 6))
         self.by_flange[:, :3, :3] = self.by_flange[:, 3:, 3:] = turn
-        self.by_flange[:, :3, 3:] = -turn @ _crosses(lever)
+        self.by_flange[:, :3, 3:] = -turn @ crosses(lever)
         self.sight = predicted[:, :3, 3] / np.linalg.norm(predicted[:, :3, 3], axis=1)[:, None]
 
     def covariances(self, accuracy: np.ndarray, noise: np.ndarray) -> np.ndarray:
@@ -189,9 +189,9 @@ class LinearHandEye:
     ) -> tuple[np.ndarray, np.ndarray]:
         """The information (p, p) and the gradient (p,), from rows, corners and priors."""
         found, corners = self.found, self.found.sights.corners
-        weighted = np.einsum("n,nij,nik->njk", weights, precisions, self.slopes)
-        information = np.einsum("nji,njk->ik", self.slopes, weighted)
-        gradient = np.einsum("njk,nj->k", weighted, self.residuals)
+        slopes = self.slopes.reshape(6 * len(weights), -1)
+        weighted = (weights[:, None, None] * precisions @ self.slopes).reshape(slopes.shape)
+        information, gradient = slopes.T @ weighted, self.residuals.ravel() @ weighted
         known = corners.information.sum(axis=0) + np.diag(corners.deviations**-2.0)
         information[ENDS:, ENDS:] += known
         gradient[ENDS:] += corners.gradient.sum(axis=0) - known @ found.optics
@@ -211,11 +211,6 @@ class LinearHandEye:
         scale = 1 / np.sqrt(np.maximum(information.diagonal(), np.finfo(float).tiny))
         scaled = information * scale * scale[:, None] + 1e-9 * np.eye(len(scale))
         gain = (gradient * scale) @ np.linalg.solve(scaled, gradient * scale)
-        squares = np.einsum("n,ni,nij,nj->", weights, rows, precisions, rows) - gain
+        squares = np.sum(weights[:, None] * rows * (precisions @ rows[..., None])[..., 0]) - gain
         volume = np.linalg.slogdet(scaled)[1] - 2 * np.log(scale).sum()
         return float(np.linalg.slogdet(covariances)[1][weights > 0].sum() + squares + volume)
-
-
-def _crosses(vectors: np.ndarray) -> np.ndarray:
-    """Skew-symmetric matrices (n, 3, 3) of the cross products with vectors (n, 3) on the left."""
-    return np.cross(vectors[:, None], np.eye(3)).swapaxes(1, 2)

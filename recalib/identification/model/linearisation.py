@@ -16,6 +16,7 @@ from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.observations import Observations
 
 LEVER = 0.5  # m: the length that a turn of one rad counts as in sums of lengths and turns
+CROSSES = np.cross(np.eye(3)[:, None], np.eye(3)).swapaxes(1, 2)  # of each axis
 BLOCK = 1000  # rows at once: more would take more memory, but no less time
 
 
@@ -37,6 +38,11 @@ def displaced(pose: np.ndarray, step: np.ndarray) -> np.ndarray:
     moved[:3, 3] += step[:3]
     moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
     return moved
+
+
+def crosses(vectors: np.ndarray) -> np.ndarray:
+    """Skew-symmetric matrices (n, 3, 3) of the cross products with vectors (n, 3) on the left."""
+    return (vectors @ CROSSES.reshape(3, 9)).reshape(-1, 3, 3)
 
 
 class Linearisation:
