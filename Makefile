@@ -65,7 +65,7 @@ live: .venv/extras ## install MuJoCo for an arm with dynamics, from requirements
 	$(PIP) --require-hashes -r requirements-extras.lock
 	touch $@
 
-test: lint ## run the linters and all tests except whole workflows, examples, sites and environments
+test: lint ## run the linters and all tests except whole workflows, examples, sites, environments and simulations
 	$(PYTEST) -m "not slow"
 
 test-all: lint ## run the linters and all tests

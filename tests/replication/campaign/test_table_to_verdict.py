@@ -8,6 +8,7 @@ import pytest
 
 from replication.judgement import RATIO, Comparison, Verdict, model
 
+pytestmark = pytest.mark.slow  # thousands of campaigns; of code whose digests are registered
 SETUPS, REPLICATED, NOISE = 30, 6, 0.015
 MANY, FEW = 500, 100  # worlds: for a coverage to 2 %; for a power of more than 80 %
 NAMES = "mean", "another", "heterogeneity", "luck"
