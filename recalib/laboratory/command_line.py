@@ -6,8 +6,8 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from importlib import import_module
 
+from recalib import laboratory
 from recalib.errors import RecalibError
 from recalib.files.outputs import check_new, is_taken
 from recalib.laboratory.options import DONE, NO_BETTER, REFUSED, parse
@@ -28,8 +28,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         check_new(options.out, options.folder)
         with _no_cache_at_home():
             # imported only now, so that help and refusals do not wait for Pinocchio and SciPy
-            command = getattr(import_module("recalib.laboratory.commands"), options.command)
-            return int(command(options))
+            return int(getattr(laboratory.commands, options.command)(options))
     except RecalibError as error:
         message = str(error)
     except OSError as error:

@@ -5,12 +5,12 @@ import os
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from recalib import laboratory, vision
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.outputs import check_new, write_new
 from recalib.files.quantities import ANGLE, LENGTH
@@ -35,11 +35,6 @@ from recalib.spelling import counted
 TURNED = 0.01  # deg: a rotation with a smaller error counts as reached
 ENOUGH = 0.05  # of the uncertainty: a smaller reduction is not worth the measurements
 Options = argparse.Namespace
-
-
-def _load(module: str, name: str) -> Any:
-    """Import a function that needs an optional package: Matplotlib, Rerun or OpenCV."""
-    return getattr(import_module(f"recalib.{module}"), name)
 
 
 def calibrate(options: Options) -> int:
@@ -75,17 +70,17 @@ def calibrate_poses(options: Options) -> int:
     flange = read_poses(options.poses, options.convention, options.unit, "flange" in inverse)
     settings = options.target_convention, options.unit, "targets" in inverse, True
     targets = options.targets and read_poses(options.targets, *settings)
-    calibrating = import_module("recalib.laboratory.hand_eye.calibrating")  # needs OpenCV
     given = options.pictures, options.board, options.lens, in_hand, print_progress
-    shown = targets or calibrating.pictures_at(flange, *given)
+    shown = targets or laboratory.pictures_at(flange, *given)
     height = options.height and within("--height", options.height, LENGTH, 1e-4)
-    files, good = calibrating.calibrate_poses(flange, shown, in_hand, height, print_progress)
+    files, good = laboratory.calibrate_poses(flange, shown, in_hand, height, print_progress)
     return _written(options.out, files, good)
 
 
 def calibrate_rows(options: Options) -> int:
     """Write a folder with the calibration of an arm, from a table or from folders of pictures."""
-    page_of = _load("laboratory.report.page", "page_of")
+    page_of = laboratory.page_of  # imported first: a missing package is told before the work
+    recording_of = laboratory.recording_of if options.recording else None
     paths: list[Path] = options.measurements
     folders = [path for path in paths if os.path.isdir(path)]
     if len(paths) > 1 and len(folders) < len(paths):
@@ -93,14 +88,13 @@ def calibrate_rows(options: Options) -> int:
         raise InvalidFile(paths[0], f"it is one of {len(paths)} tables; {valid}")
     settings = options.description, options.tool, options.base, print_progress
     if folders:
-        identify = _load("laboratory.pictures.sessions", "calibrate_pictures")
-        result: Calibrated = identify(options.urdf, folders, *settings)
+        result: Calibrated = laboratory.calibrate_pictures(options.urdf, folders, *settings)
     else:
         result = calibrate_arm(options.urdf, paths[0], *settings)
     print_progress(f"files in {options.out}")
     files, remark = files_of(result) | {"page.html": page_of(result)}, ""
-    if options.recording:
-        recording, remark = _load("laboratory.report.recording", "recording_of")(result)
+    if recording_of:
+        recording, remark = recording_of(result)
         files |= {"recording.rrd": recording} if recording else {}
     code = _written(options.out, files, result.worthwhile)
     print(remark, end="\n" * bool(remark))
@@ -132,8 +126,7 @@ def live(options: Options) -> int:
     observed = Path(options.out).with_name(f"{Path(options.out).name}_observed")
     if options.board is not None:
         check_new(observed, folder=True)
-    measure_live = _load("laboratory.live.command", "measure_live")
-    ended = measure_live(options, print_progress)
+    ended = laboratory.measure_live(options, print_progress)
     print_progress(f"ended: {ended.reason}")
     if ended.rows < FEWEST:
         more = f"a calibration needs {FEWEST}; to continue, repeat the command"
@@ -216,10 +209,9 @@ def next(options: Options) -> int:
 
 def next_poses(options: Options) -> int:
     """Write the flange poses that are most informative about the camera's pose."""
-    propose_poses = _load("laboratory.hand_eye.proposing", "propose_poses")
     box = None if options.box is None else Box.read(options.box)
     cone = ANGLE.value_of("--cone", options.cone or CONE)
-    poses, deviations = propose_poses(options.calibration, options.count, box, cone)
+    poses, deviations = laboratory.propose_poses(options.calibration, options.count, box, cone)
     write_new(options.out, table_text(pose_rows(poses)), ".csv")
     before, after = 1e3 * deviations[[0, -1]]
     print(f"{counted(len(poses), 'flange pose')} in {options.out}, the most informative first.")
@@ -255,9 +247,8 @@ def _beyond(correction: Correction, commands: Commands) -> dict[str, Any]:
 
 def board(options: Options) -> int:
     """Write a board to print, and its description."""
-    sheet = _load("vision.boards", "printable")(options.columns, options.rows, options.square)
-    draw_board = _load("vision.printing", "draw_board")
-    (pdf, svg), paper, bar = draw_board(sheet, "pdf", "svg")
+    sheet = vision.printable(options.columns, options.rows, options.square)
+    (pdf, svg), paper, bar = vision.draw_board(sheet, "pdf", "svg")
     files = {"board.pdf": pdf, "board.svg": svg, "board.toml": sheet.described().encode()}
     write_new(options.out, files)
     print(f"{options.out}: {', '.join(files)}. Print at true size, on {paper[0]:g} x")
@@ -267,11 +258,10 @@ def board(options: Options) -> int:
 
 def observe(options: Options) -> int:
     """Write a folder with the corners found in pictures, and their page."""
-    find_boards = _load("laboratory.pictures.observe", "observe")
-    page_of_pictures = _load("laboratory.pictures.page_of_pictures", "page_of_pictures")
     pictures = options.pictures, options.joints, options.board, options.lens
     check_new(options.out, folder=True)
-    result = find_boards(*pictures, options.camera == IN_HAND, print_progress, options.name)
+    page_of_pictures = laboratory.page_of_pictures
+    result = laboratory.observe(*pictures, options.camera == IN_HAND, print_progress, options.name)
     write_new(options.out, result.files() | {"page.html": page_of_pictures(result)})
     print(result.summary(), end="")
     print(f"\n{options.out}: see page.html; next: recalib calibrate ARM.urdf {options.out}")

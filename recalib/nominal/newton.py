@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
+import scipy  # loads its subpackages, which are slow to import, at their first use
 
 from recalib.nominal.kernels import LONGEST_STEP as LONGEST_STEP
 from recalib.nominal.kernels import SINGULAR
@@ -72,9 +73,7 @@ def _residual(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     residual[..., 3:] = (between - between.swapaxes(-2, -1))[..., LAST, NEXT] / 2
     far = np.trace(between, axis1=-2, axis2=-1) < 1
     if far.any():
-        from scipy.spatial.transform import Rotation  # rarely needed, and slow to import
-
-        residual[far, 3:] = Rotation.from_matrix(between[far]).as_rotvec()
+        residual[far, 3:] = scipy.spatial.transform.Rotation.from_matrix(between[far]).as_rotvec()
     return residual
 
 

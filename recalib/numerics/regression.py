@@ -7,7 +7,7 @@ length scales and the noise's variance.
 """
 
 import numpy as np
-import scipy.linalg
+import scipy
 from scipy.spatial.distance import cdist
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # bounds of the hyperparameters
@@ -136,11 +136,11 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
     """
     if len(inputs) < FEWEST:
         return _start(inputs.shape[1])
-    from scipy.optimize import minimize  # imported only here: it is slow and not always needed
-
     dimensions = inputs.shape[1]
     bounds = np.log([VARIANCES, VARIANCES, *[LENGTHS] * dimensions, NOISE])
     starts = [_start(dimensions, noise) for noise in FIRST_NOISES]
     settings = {"jac": True, "bounds": bounds, "options": {"maxiter": STEPS}}
-    found = [minimize(_loss, start, (inputs, outputs), **settings) for start in starts]
+    found = [
+        scipy.optimize.minimize(_loss, start, (inputs, outputs), **settings) for start in starts
+    ]
     return min(found, key=lambda result: result.fun).x

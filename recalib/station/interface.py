@@ -8,10 +8,23 @@ from scipy.spatial.transform import Rotation
 
 from recalib.arrays import array_of, check_rotations
 from recalib.errors import RecalibError
+from recalib.identification.model.optics import Optics
 
 
 class StationFailed(RecalibError):
     """A failure of a station, to which no further move may be sent."""
+
+
+class Pictures(Protocol):
+    """What reads pictures as poses of a board; `BoardInPictures` does, which needs OpenCV."""
+
+    tool_radius: float
+
+    def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
+        """Poses (n, 4, 4) [m] from pictures, and their information, also on the lens."""
+
+    def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Predictions for pictures at poses (n, 4, 4) [m]; see `predicted_views`."""
 
 
 class Station(Protocol):

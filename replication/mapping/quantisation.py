@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pandas as pd
+from sklearn.cluster import KMeans
 
 from recalib.learners.nets import CENTRES, nearest, regular_grid
 from recalib.learners.schedules import EXPONENTIAL, fall
@@ -59,8 +60,6 @@ def kohonen(starts: np.ndarray, poses: np.ndarray, shape: Sequence[int]) -> np.n
 
 def k_means(poses: np.ndarray, cells: int, random: np.random.Generator) -> np.ndarray:
     """The best centres (cells, d) for poses (n, d) that k-means finds in `STARTS` attempts."""
-    from sklearn.cluster import KMeans  # importing it takes half a second
-
     state = int(random.integers(2**31))
     return KMeans(cells, n_init=STARTS, random_state=state).fit(poses).cluster_centers_
 

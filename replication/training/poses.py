@@ -10,6 +10,7 @@ from enum import Enum, unique
 from typing import Any, Self
 
 import numpy as np
+import scipy  # loads its subpackages, which are slow to import, at their first use
 
 from recalib.loop.interfaces import Commandable, Learner
 from recalib.loop.training import History, train
@@ -62,9 +63,8 @@ class Stream(Enum):
 def _poses(random: np.random.Generator, count: int, order: str) -> np.ndarray:
     if order == "random":
         return random.uniform(-1, 1, (count, 6))
-    from scipy.stats import qmc  # importing it takes a third of a second
-
-    return 2 * qmc.Sobol(6, rng=random).random_base2((count - 1).bit_length())[:count] - 1
+    sobol = scipy.stats.qmc.Sobol(6, rng=random)
+    return 2 * sobol.random_base2((count - 1).bit_length())[:count] - 1
 
 
 @dataclass(frozen=True)

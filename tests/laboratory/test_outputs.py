@@ -36,12 +36,7 @@ def laboratory(calibrated, tmp_path_factory):
     result = calibrate_arm(folder / "arm.urdf", folder / "rows.csv")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(commands, "calibrate_arm", lambda *_: result)
-        load, page = commands._load, lambda _: b"a page"
-        patch.setattr(
-            commands,
-            "_load",
-            lambda module, name: page if name == "page_of" else load(module, name),
-        )
+        patch.setattr("recalib.laboratory.page_of", lambda _: b"a page")
         assert run(folder, "calibrate", "arm.urdf", "rows.csv")[0] == DONE
         yield folder
 

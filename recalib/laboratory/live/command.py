@@ -7,10 +7,10 @@ import termios
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from recalib import station, vision
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.live.allowed import Box
@@ -20,11 +20,8 @@ from recalib.laboratory.tables.description import read_description
 from recalib.nominal.arms import load_arm
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.shapes import load_shapes
-from recalib.station.interface import Station
+from recalib.station.interface import Pictures, Station
 from recalib.station.opening import open_station
-
-if TYPE_CHECKING:  # it needs OpenCV
-    from recalib.station.pictures import BoardInPictures
 
 # A closed terminal, a kill, and a suspension to the background must stop the arm, too.
 STOPPING = signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP
@@ -48,7 +45,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
     if given.board and given.lens is None:
         raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
     opening: Callable[[], Station] = partial(open_station, given.station)
-    pictures: BoardInPictures | None = None
+    pictures: Pictures | None = None
     if given.board is not None:
         opening, pictures = _with_board(opening, given)
     checked = settings.self_collision or settings.floor is not None
@@ -84,15 +81,11 @@ def _signals_that_stop() -> Iterator[None]:
 
 def _with_board(
     opening: Callable[[], Station], given: argparse.Namespace
-) -> tuple[Callable[[], Station], "BoardInPictures"]:
+) -> tuple[Callable[[], Station], Pictures]:
     """A function that opens a station with a camera as one that measures poses, and its board."""
-    from recalib.station.pictures import BoardInPictures, PicturesOfABoard
-    from recalib.vision.boards import read_board
-    from recalib.vision.lenses import read_lens
-
-    board, lens = read_board(given.board), read_lens(given.lens)
-    pictures = BoardInPictures(board, lens, given.camera == IN_HAND)
-    return lambda: PicturesOfABoard(opening(), pictures), pictures
+    board, lens = vision.read_board(given.board), vision.read_lens(given.lens)
+    pictures = station.BoardInPictures(board, lens, given.camera == IN_HAND)
+    return lambda: station.PicturesOfABoard(opening(), pictures), pictures
 
 
 def ask_to_move(arm: Arm, move: Move) -> Answer:

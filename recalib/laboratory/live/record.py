@@ -6,7 +6,6 @@ import io
 import os
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,9 +19,7 @@ from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.measurements import joint_headings, measurements_so_far, read_desired
 from recalib.laboratory.tables.table import MOST, table_text
 from recalib.nominal.kinematics import Arm
-
-if TYPE_CHECKING:  # it needs OpenCV
-    from recalib.station.pictures import BoardInPictures
+from recalib.station.interface import Pictures
 
 
 class Record:
@@ -45,7 +42,7 @@ class Record:
         path: AnyPath,
         arm: Arm,
         description: Description,
-        pictures: "BoardInPictures | None" = None,
+        pictures: Pictures | None = None,
     ):
         self.path, self._arm, self._description = path_of(path), arm, description
         self.pictures = pictures

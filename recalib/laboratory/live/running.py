@@ -6,7 +6,6 @@ calibration continues as if nothing had happened. Models this small are fast eno
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.distance import cdist
@@ -27,9 +26,7 @@ from recalib.laboratory.propose import PROBES
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED
-
-if TYPE_CHECKING:  # it needs OpenCV
-    from recalib.station.pictures import BoardInPictures
+from recalib.station.interface import Pictures
 
 MODELS = OFFSETS, JOINT_ERRORS  # the more probable one is used
 FIRST = 20  # rows for an initial estimate of instrument and target: more take longer
@@ -53,7 +50,7 @@ class RunningCalibration:
         arm: Arm,
         description: Description,
         postures: AllowedPostures,
-        pictures: "BoardInPictures | None" = None,
+        pictures: Pictures | None = None,
     ):
         self._arm, self._description, self._postures = arm, description, postures
         self._pictures, self._probes = pictures, postures.joints[:PROBES]

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -20,10 +20,7 @@ from recalib.laboratory.live.running import AHEAD, RunningCalibration
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED, Guarded, StationRaised
-from recalib.station.interface import Station, StationFailed
-
-if TYPE_CHECKING:  # it needs OpenCV
-    from recalib.station.pictures import BoardInPictures
+from recalib.station.interface import Pictures, Station, StationFailed
 
 USELESS = 0.05  # of the predicted error: a smaller reduction is not worth ten moves
 SOON = 20  # rows before this is judged: errors beyond geometry do not show in fewer
@@ -114,7 +111,7 @@ def calibrate_live(
     description: Description | None = None,
     on_progress: Callable[[str], None] = lambda line: None,
     on_row: Callable[[Observations, RunningCalibration], None] = lambda rows, running: None,
-    pictures: "BoardInPictures | None" = None,
+    pictures: Pictures | None = None,
     shapes: pin.GeometryModel | None = None,
 ) -> Ended:
     """Let an arm move and measure until its calibration is accurate enough.
