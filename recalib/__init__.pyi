@@ -73,12 +73,12 @@ from .nominal.controller import Controller as Controller
 from .nominal.denavit_hartenberg import Row as Row
 from .nominal.denavit_hartenberg import arm_of_table as arm_of_table
 from .nominal.kinematics import Arm as Arm
-from .nominal.poses import Workspace as Workspace
-from .nominal.poses import orientation_error as orientation_error
-from .nominal.poses import position_error as position_error
 from .nominal.robots import Robot as Robot
 from .nominal.robots import load_robot as load_robot
 from .nominal.shapes import load_shapes as load_shapes
+from .nominal.workspace import Workspace as Workspace
+from .nominal.workspace import orientation_error as orientation_error
+from .nominal.workspace import position_error as position_error
 from .station.interface import Station as Station
 from .station.interface import StationFailed as StationFailed
 from .station.opening import ProgramStation as ProgramStation

@@ -6,7 +6,7 @@ import pytest
 import rerun as rr
 from rerun.chunk import RrdReader
 
-from recalib.laboratory.scene import log_meshes
+from recalib.laboratory.logged_arm import log_meshes
 from recalib.nominal import with_own_meshes
 
 MESH = """solid SECRET

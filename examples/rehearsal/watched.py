@@ -18,7 +18,7 @@ import rerun.blueprint as rrb
 
 from recalib import Arm, LiveSettings, Observations, calibrate_live, load_arm
 from recalib.laboratory.live.running import RunningCalibration
-from recalib.laboratory.scene import ARM, GREY, ROW, THICK, log_meshes, send_arm
+from recalib.laboratory.logged_arm import ARM, GREY, ROW, THICK, log_meshes, send_arm
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.shapes import load_shapes
 from recalib.station.opening import open_station

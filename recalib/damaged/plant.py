@@ -13,7 +13,7 @@ from recalib.loop.interfaces import ForwardKinematics, Outcome
 from recalib.nominal import kernels
 from recalib.nominal.chain import Chain
 from recalib.nominal.controller import Controller, Targets
-from recalib.nominal.poses import Workspace
+from recalib.nominal.workspace import Workspace
 from recalib.spelling import listed
 
 

@@ -27,7 +27,7 @@ from recalib.identification.model.error_model import by_sight
 from recalib.laboratory.reaching import Goals, poses_at, reach_all
 from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
-from recalib.nominal.poses import orientation_error
+from recalib.nominal.workspace import orientation_error
 from recalib.spelling import listed
 
 FORMAT, WRITER = ("recalib correction", 4), "recalib calibrate"

@@ -15,7 +15,7 @@ from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
 from recalib.nominal.kinematics import Arm, Coupling
 from recalib.nominal.newton import solve_groups
-from recalib.nominal.poses import orientation_error
+from recalib.nominal.workspace import orientation_error
 from recalib.spelling import listed
 
 TOLERANCE = 1e-8  # m, rad

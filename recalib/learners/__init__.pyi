@@ -1,7 +1,7 @@
+from .compiled import JACOBIAN as JACOBIAN
+from .compiled import THETA as THETA
+from .compiled import WAITING as WAITING
 from .geometric import angles_for as angles_for
-from .kernels import JACOBIAN as JACOBIAN
-from .kernels import THETA as THETA
-from .kernels import WAITING as WAITING
 from .kinds import KINDS as KINDS
 from .kinds import class_of as class_of
 from .kinds import kind_of as kind_of

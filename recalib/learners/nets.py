@@ -8,8 +8,8 @@ from itertools import product
 
 import numpy as np
 
-from recalib.learners import kernels
-from recalib.nominal.poses import ORIENTATION, POSITION
+from recalib.learners import compiled
+from recalib.nominal.workspace import ORIENTATION, POSITION
 
 # "A regular grid covering" the workspace (section 3): along each coordinate in [-1, 1], the middles
 # of n equal boxes, which minimise the quantisation error, or n points from face to face.
@@ -30,7 +30,7 @@ def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
 
 def nearest(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Index (...) of the nearest of the centres (cells, d) to each of the points (..., d)."""
-    found = kernels.nearest_of(points.reshape(-1, points.shape[-1]), centres)
+    found = compiled.nearest_of(points.reshape(-1, points.shape[-1]), centres)
     return found.reshape(points.shape[:-1])
 
 

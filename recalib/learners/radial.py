@@ -9,13 +9,13 @@ from scipy.special import softmax
 
 from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_function, check_kind
-from recalib.learners import kernels
+from recalib.learners import compiled
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
 from recalib.loop.interfaces import Execute
 from recalib.loop.moves import check_moves
-from recalib.nominal.poses import ORIENTATION, POSITION
+from recalib.nominal.workspace import ORIENTATION, POSITION
 
 SPACING = 2 / 3  # the distance of cells, if three lie along a coordinate of the workspace, 2 wide
 
@@ -99,7 +99,7 @@ class RadialLearner:
             if not self.rules.theta_increments:
                 star = winner[:, outputs] + star
             theta = self.theta[..., outputs]
-            kernels.propagate(theta, rate[:, None] * g_k, g_kl, star, self.rules.theta_increments)
+            compiled.propagate(theta, rate[:, None] * g_k, g_kl, star, self.rules.theta_increments)
 
     def _shares(self, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """phi divided by its sum (run, pose, cell), in one net, for points (run, pose, 3)."""

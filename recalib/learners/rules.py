@@ -13,7 +13,7 @@ from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_kind, check_name
 from recalib.learners.nets import CENTRES
 from recalib.learners.schedules import DIMENSIONS, EXPONENTIAL, RATES, SPREADS, equal_visits
-from recalib.nominal.poses import ORIENTATION, POSITION
+from recalib.nominal.workspace import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
 SINGLE = {"pose": slice(0, 6)}

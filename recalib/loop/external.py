@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from recalib.arrays import are_poses, array_of
 from recalib.errors import BadMeasurement, check_function, check_kind
 from recalib.loop.interfaces import Outcome
-from recalib.nominal.poses import Workspace
+from recalib.nominal.workspace import Workspace
 
 FARTHEST = 10.0  # m from the workspace's centre: farther poses are not in metres
 SKEW = 0.01  # greatest error of R R' = 1: instruments round the numbers of a rotation matrix

@@ -1,6 +1,6 @@
 """Interfaces of robots and learners: any object that implements one can be used.
 
-Commands and achieved poses are coordinates of the workspace (`recalib.nominal.poses`). The first
+Commands and achieved poses are coordinates of a workspace (`recalib.nominal.workspace`). The first
 axis is always the run, because an experiment trains many runs side by side.
 """
 
@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, Protocol, Self, runtime_checkable
 
 import numpy as np
 
-from recalib.nominal.poses import Workspace
 from recalib.nominal.robots import Robot
+from recalib.nominal.workspace import Workspace
 
 
 class Outcome(NamedTuple):

@@ -12,7 +12,7 @@ import numpy as np
 from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_function, check_kind
 from recalib.loop.interfaces import Commandable, Learner
-from recalib.nominal.poses import Workspace, pose_errors
+from recalib.nominal.workspace import Workspace, pose_errors
 
 SUMMARIES: Mapping[str, Callable[[np.ndarray], np.ndarray]] = {
     "": lambda errors: errors.mean(axis=-1),
@@ -77,7 +77,7 @@ def measure(
     """Position [m] and orientation errors [rad], each (run, summary), at poses (run, pose, 6).
 
     The learner does not learn from these moves, and they are not counted. For `error`, see
-    `recalib.nominal.poses.pose_errors`.
+    `recalib.nominal.workspace.pose_errors`.
     """
     achieved, _ = plant.achieve(learner.command(tests))
     errors = pose_errors(plant.workspace, achieved, plant.workspace.to_poses(tests), error)
@@ -107,7 +107,7 @@ def train(
             the first iteration.
         progress: called after each measurement with the iteration and the mean errors over runs in
             cm and degrees.
-        error: definition of a pose's errors; see `recalib.nominal.poses.pose_errors`.
+        error: definition of a pose's errors; see `recalib.nominal.workspace.pose_errors`.
 
     Raises InvalidSetting for arguments of other types, poses of other shapes, no test poses, no
     measurements, or a measurement after more iterations than there are.

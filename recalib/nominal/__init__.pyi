@@ -9,6 +9,6 @@ from .kinematics import tool_frame as tool_frame
 from .meshes import with_own_meshes as with_own_meshes
 from .newton import LONGEST_STEP as LONGEST_STEP
 from .newton import solve_groups as solve_groups
-from .poses import COORDINATES as COORDINATES
-from .poses import pose_errors as pose_errors
 from .robots import link_end as link_end
+from .workspace import COORDINATES as COORDINATES
+from .workspace import pose_errors as pose_errors

@@ -39,7 +39,7 @@ class Arms(NamedTuple):
 
 
 class Region(NamedTuple):
-    """A workspace, as `recalib.nominal.poses.Workspace` describes it."""
+    """A workspace, as `recalib.nominal.workspace.Workspace` describes it."""
 
     centre: np.ndarray
     half_ranges: np.ndarray

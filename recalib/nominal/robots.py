@@ -14,7 +14,7 @@ from recalib.errors import InvalidSetting, UnsuitableRobot, check_kind, check_na
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm
-from recalib.nominal.poses import Workspace
+from recalib.nominal.workspace import Workspace
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ length scales and the noise's variance.
 
 import numpy as np
 import scipy
-from scipy.spatial.distance import cdist
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # bounds of the hyperparameters
 FIRST_LENGTH = 5.0
@@ -84,7 +83,7 @@ def _covariances(
     """Covariances (n, m) of trend and smooth function between points (n, d) and others (m, d)."""
     sizes = np.exp(hyperparameters)
     trend, smooth, lengths = sizes[0], sizes[1], sizes[2:-1]
-    squares = cdist(inputs / lengths, others / lengths, "sqeuclidean")
+    squares = scipy.spatial.distance.cdist(inputs / lengths, others / lengths, "sqeuclidean")
     return trend * (1 + inputs @ others.T), smooth * np.exp(-squares / 2)
 
 

@@ -13,8 +13,8 @@ from recalib.damaged.damage import Damage, apply
 from recalib.errors import RecalibError, UnfitWorkspace
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
-from recalib.nominal.poses import pose_errors
 from recalib.nominal.robots import Robot
+from recalib.nominal.workspace import pose_errors
 from recalib.numerics.randomness import generator
 from replication.campaign.setups import Setup, robot_in
 from replication.config.campaign import Campaign, Factors

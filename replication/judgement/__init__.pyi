@@ -16,6 +16,11 @@ from .deviations import REMOVED as REMOVED
 from .deviations import Change as Change
 from .deviations import Deviations as Deviations
 from .deviations import digests as digests
+from .error_tables import cells_of_mean as cells_of_mean
+from .error_tables import moves_to_reach as moves_to_reach
+from .error_tables import put_together as put_together
+from .error_tables import real_errors as real_errors
+from .error_tables import summarise as summarise
 from .evidence import Evidence as Evidence
 from .evidence import NotMeasured as NotMeasured
 from .findings import Number as Number
@@ -25,11 +30,6 @@ from .hierarchy import Estimate as Estimate
 from .hierarchy import Model as Model
 from .hierarchy import model as model
 from .hierarchy import student as student
-from .summary import cells_of_mean as cells_of_mean
-from .summary import moves_to_reach as moves_to_reach
-from .summary import put_together as put_together
-from .summary import real_errors as real_errors
-from .summary import summarise as summarise
 from .verdicts import RATIO as RATIO
 from .verdicts import Comparison as Comparison
 from .verdicts import Verdict as Verdict

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from recalib.nominal.poses import POSITION
+from recalib.nominal.workspace import POSITION
 from recalib.numerics.randomness import generator
 from replication.mapping.true_mapping import coupling
 from replication.scenarios.plants import Resolved

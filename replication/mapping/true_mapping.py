@@ -6,7 +6,7 @@ import pandas as pd
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
-from recalib.nominal.poses import ORIENTATION, POSITION
+from recalib.nominal.workspace import ORIENTATION, POSITION
 
 BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSITION)}
 STEP = 1e-4  # step of the central differences, in workspace coordinates: 25 um

@@ -11,6 +11,6 @@ from .phases import VISIT as VISIT
 from .phases import move as move
 from .recorded import recorded_places as recorded_places
 from .recorded import typical_seed as typical_seed
+from .recordings import check_end as check_end
+from .recordings import record as record
 from .watched import visiting_order as visiting_order
-from .writing import check_end as check_end
-from .writing import record as record

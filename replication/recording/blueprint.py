@@ -7,7 +7,7 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from recalib.nominal.poses import Workspace
+from recalib.nominal.workspace import Workspace
 from replication.recording.colours import BACKGROUND
 from replication.recording.phases import ARM, CLOCK, FRAMES_A_SECOND, MAP
 from replication.recording.watched import Watched

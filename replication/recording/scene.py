@@ -26,9 +26,9 @@ import numpy as np
 import rerun as rr
 from scipy.spatial.transform import Rotation
 
-from recalib.laboratory.scene import send_frame
-from recalib.nominal.poses import POSITION
+from recalib.laboratory.logged_arm import send_frame
 from recalib.nominal.robots import Robot
+from recalib.nominal.workspace import POSITION
 from replication.recording.blueprint import Sight
 from replication.recording.colours import GREY, NOMINAL, REACHED, WHITE, Colour
 from replication.recording.phases import CLOCK, Clock, Motion

@@ -6,7 +6,7 @@ import numpy as np
 
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.loop.training import History
-from recalib.nominal.poses import POSITION
+from recalib.nominal.workspace import POSITION
 from replication.config.study import Study
 from replication.recording.phases import POSES
 from replication.scenarios.plants import Resolved

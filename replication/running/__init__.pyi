@@ -8,7 +8,7 @@ from .alone import hold as hold
 from .consistency import check as check
 from .geometry import check_robots as check_robots
 from .layers import LAYERS as LAYERS
-from .outputs import write as write
+from .result_files import write as write
 from .studies import BANDS as BANDS
 from .studies import LOCK as LOCK
 from .studies import ship as ship

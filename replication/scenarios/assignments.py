@@ -11,7 +11,7 @@ import numpy as np
 
 from recalib.damaged.damage import Along, EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
-from recalib.nominal.poses import pose_errors
+from recalib.nominal.workspace import pose_errors
 from recalib.numerics.randomness import generator
 from replication.config.study import PaperDamage, Published
 from replication.scenarios.plants import Nominal, nominal_controller
@@ -100,7 +100,7 @@ def compare(
     Args:
         coordinates: (n, 6) desired poses over which the errors are averaged.
         scale: size of the robot's workspace, relative to that of the study's robot.
-        error: definition of a pose's errors; see `recalib.nominal.poses.pose_errors`.
+        error: definition of a pose's errors; see `recalib.nominal.workspace.pose_errors`.
     """
     robot = controller.robot
     desired = robot.workspace.to_poses(coordinates)

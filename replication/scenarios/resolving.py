@@ -6,7 +6,7 @@ import numpy as np
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.workspace import orientation_error, position_error
 from recalib.numerics.randomness import generator
 from replication.config.damages import Assigned, Entry, damages_among
 from replication.config.study import Study

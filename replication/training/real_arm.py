@@ -17,8 +17,8 @@ from recalib.learners.kinds import KINEMATICS, class_of
 from recalib.learners.observer import Observer
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm
-from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
+from recalib.nominal.workspace import POSITION, Workspace
 from recalib.numerics.randomness import generator
 from replication.config.study import Study
 from replication.scenarios.plants import nominal_of, nominal_robot

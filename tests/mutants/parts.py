@@ -38,7 +38,7 @@ PARTS = {
     ),
     "judgement": Part(
         ("replication/judgement",),
-        ("tests/replication/judgement", "tests/replication/campaign/test_table_to_verdict.py"),
+        ("tests/replication/judgement",),
     ),
     "learners": Part(
         ("recalib/learners",),

@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 from replication.config import Ensemble, Study
-from replication.mapping import measured, nearness, quantisation, solutions
+from replication.mapping import jobs, nearness, quantisation, solutions
 from replication.recording import record
 from replication.scenarios import Resolved
 from replication.training import compete, constant_widths, train_ensemble
@@ -58,9 +58,9 @@ def computed(study: Study, folder: Path) -> pd.DataFrame:
     scenarios = [Resolved.read(path).model_dump() for path in files.scenarios]
     tables = dict(zip(SCENARIOS, map(pd.read_parquet, files.histories), strict=True))
     tables["scenarios"] = pd.DataFrame(scenarios)
-    mapping = measured.measure(study, files.scenarios, files.scenarios[0])
+    mapping = jobs.measure(study, files.scenarios, files.scenarios[0])
     tables |= dict(zip(MAPPING, mapping, strict=True))
-    tables |= dict(zip(LEARNING, measured.learn(study, files.scenarios[0], settings), strict=True))
+    tables |= dict(zip(LEARNING, jobs.learn(study, files.scenarios[0], settings), strict=True))
     tables |= {name: compete(study, name, settings) for name in COMPETITORS}
     tables["ensemble"] = train_ensemble(study, settings)
     columns = {

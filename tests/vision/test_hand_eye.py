@@ -25,7 +25,7 @@ from recalib.identification.model import displacements
 from recalib.identification.model.hand_eye_model import Sights
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.hand_eye.calibrating import calibrate_poses
-from recalib.laboratory.hand_eye.mistakes import Mistaken, board_size, exchange_in
+from recalib.laboratory.hand_eye.pose_checks import Mistaken, board_size, exchange_in
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.laboratory.pictures.observed import Observed, Picture
 from recalib.laboratory.tables.table import Table

@@ -20,7 +20,7 @@ from snakemake.script import Snakemake
 
 from recalib.errors import RecalibError
 from replication.config.study import Study
-from replication.running.outputs import write
+from replication.running.result_files import write
 
 
 def main(job: Snakemake) -> None:

@@ -13,7 +13,7 @@ from recalib.identification.hand_eye import calibrate_hand_eye, held_out, upende
 from recalib.identification.model.hand_eye_model import ENDS, HandEye, Sights
 from recalib.identification.model.optics import BOARD
 from recalib.laboratory.calibrate import Progress
-from recalib.laboratory.hand_eye.mistakes import (
+from recalib.laboratory.hand_eye.pose_checks import (
     FEWEST,
     WRONG,
     check_fit,

@@ -5,8 +5,8 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from recalib.errors import InvalidSetting
+from recalib.laboratory.logged_arm import ARM, GREY, ROW, THICK, log_meshes, send_arm
 from recalib.laboratory.results import Results
-from recalib.laboratory.scene import ARM, GREY, ROW, THICK, log_meshes, send_arm
 from recalib.spelling import counted
 
 COLOURS = {"before": (213, 94, 0), "after": (0, 114, 178)}

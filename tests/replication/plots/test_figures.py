@@ -10,7 +10,7 @@ from replication.campaign import DOUBLE
 from replication.config import IMPROVED, RITTER
 from replication.judgement import Crossing, Evidence, Remaining
 from replication.judgement.claims import claims
-from replication.plots import APART, BOTH, LABELS, Figure, drawing, figures_of, rows
+from replication.plots import APART, BOTH, LABELS, Figure, figures_of, rendering, rows
 from replication.training import leading
 from tests.conftest import ROOT, changed
 from tests.replication.plots.conftest import NEEDED, disturbed
@@ -27,7 +27,7 @@ def test_noise_in_the_last_digits_changes_no_byte(small, project, tmp_path, monk
         paths = files(tmp_path / str(number))
         paths[0].parent.mkdir()
         monkeypatch.chdir(project(change))
-        drawing.draw(small, paths)
+        rendering.draw(small, paths)
         drawn.append({path.name: path.read_bytes() for path in paths})
     assert drawn[0] == drawn[1]
     assert min(map(len, drawn[0].values())) > 5000, "no figure is empty"
@@ -83,7 +83,7 @@ def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project):
             else table[(table["variant"] != RITTER) | (table["iterations"] <= 1000)]
         )
 
-    figure = drawing.drawn(Figure.STEPS, Evidence(small, project(shortened)))
+    figure = rendering.drawn(Figure.STEPS, Evidence(small, project(shortened)))
     assert right_of(figure.axes[1])[0] == "> 1,000 (5×)"
     plt.close(figure)
 

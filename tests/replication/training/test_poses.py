@@ -7,7 +7,7 @@ import pytest
 
 from recalib import History
 from replication.campaign import tune
-from replication.mapping import measured
+from replication.mapping import jobs
 from replication.training import (
     Place,
     ResultPoses,
@@ -138,7 +138,7 @@ def all_jobs(study, folder, monkeypatch):
     ensemble.train_ensemble(study, settings)
     for learner in ("affine", "improved"):
         benchmark.compete(study, learner, settings)
-    measured.learn(study, own, settings)
+    jobs.learn(study, own, settings)
     description = type("Description", (), {"target": np.eye(4)})
     monkeypatch.setattr(real_arm, "read_whole_description", lambda _: description)
     for name in ("read_of", "identified", "Plant"):

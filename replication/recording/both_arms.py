@@ -9,7 +9,7 @@ import rerun as rr
 from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
-from recalib.laboratory.scene import link_placements, log_meshes, send_frame
+from recalib.laboratory.logged_arm import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
 from replication.config.damages import joint_of, link_of
 from replication.recording.colours import DAMAGE, NOMINAL

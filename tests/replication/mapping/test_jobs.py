@@ -6,7 +6,7 @@ import pytest
 from replication.config import root_of
 from replication.judgement import Evidence, Verdict
 from replication.judgement.claims import Measured, claims
-from replication.mapping import measured, nearness, quantisation, solutions
+from replication.mapping import jobs, nearness, quantisation, solutions
 from replication.running import write
 from replication.training import Place, constant_widths, places, write_scenarios
 from tests.conftest import changed
@@ -44,8 +44,8 @@ def evidence(few, settings, tmp_path_factory):
         patch.setattr(constant_widths, "SEEDS", 2)
         patch.setattr(constant_widths, "RATES", np.array([0.8]))
         write_scenarios(few, [*files.values()])
-        tables = dict(zip(FIRST, measured.measure(few, [*files.values()], own), strict=True))
-        tables |= dict(zip(SECOND, measured.learn(few, own, settings), strict=True))
+        tables = dict(zip(FIRST, jobs.measure(few, [*files.values()], own), strict=True))
+        tables |= dict(zip(SECOND, jobs.learn(few, own, settings), strict=True))
     for name, table in tables.items():
         write(root / f"mapping/{name}.parquet", table)
     return Evidence(few, folder)

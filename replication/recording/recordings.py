@@ -15,8 +15,8 @@ from recalib.files.storage import whole
 from replication.config.damages import damages_among
 from replication.config.study import Study
 from replication.recording import captions
-from replication.recording.arms import send_arms
 from replication.recording.blueprint import arrange, sight_of
+from replication.recording.both_arms import send_arms
 from replication.recording.phases import move
 from replication.recording.recorded import recorded_history, typical_seed
 from replication.recording.scene import Scene, log_surroundings, send_learning, send_target
