@@ -1,4 +1,4 @@
-"""The list of figures. `drawing` draws them; captions are in workflow/templates/figures.yaml."""
+"""The list of figures. `rendering` draws them; captions are in workflow/templates/figures.yaml."""
 
 from enum import Enum
 from pathlib import Path
@@ -11,14 +11,14 @@ class Figure(Enum):
     """A figure, with the module and the function that draw it. The order gives the numbers."""
 
     FIGURE_1 = "learning:figure_1"
-    STEPS = "steps:steps"
-    CONTRASTS = "contrasts:contrasts"
+    STEPS = "factor:steps"
+    CONTRASTS = "forest:contrasts"
     LEARNERS = "learning:learners"
     SCENARIOS = "learning:scenarios"
     AMOUNTS = "learning:amounts"
     MAPPING = "mapping:mapping"
-    BENCHMARK = "benchmark:benchmark"
-    REAL_ARM = "benchmark:real_arm"
+    BENCHMARK = "comparison:benchmark"
+    REAL_ARM = "comparison:real_arm"
 
     @property
     def number(self) -> int:

@@ -32,7 +32,7 @@ rule benchmark_table:
         f"{RESULTS}/logs/benchmark_table.log",
     localrule: True
     params:
-        **calls("judgement.summary:put_together"),
+        **calls("judgement.error_tables:put_together"),
         digits=6,
     message:
         "Collect the results of the benchmark"
@@ -89,7 +89,7 @@ rule real_table:
         f"{RESULTS}/logs/real_table.log",
     localrule: True
     params:
-        **calls("judgement.summary:real_errors"),
+        **calls("judgement.error_tables:real_errors"),
         digits=5,
     message:
         "Collect the results on the real arm"

@@ -24,7 +24,7 @@ rule summary:
         f"{RESULTS}/logs/summary.log",
     localrule: True
     params:
-        **calls("judgement.summary:summarise"),
+        **calls("judgement.error_tables:summarise"),
         digits=6,
     message:
         "Collect the final errors of all trainings"

@@ -32,7 +32,7 @@ rule figures:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("plots.drawing:draw"),
+        **calls("plots.rendering:draw"),
     message:
         "Draw the figures"
     script:
@@ -54,7 +54,7 @@ rule recordings:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("recording.writing:record"),
+        **calls("recording.recordings:record"),
     message:
         "Record the arm before and after recalibration"
     script:
@@ -159,7 +159,7 @@ for part, (tables, figure, page) in APART.items():
             f"{RESULTS}/logs/{part}_figure.log",
         localrule: True
         params:
-            **calls("plots.drawing:draw"),
+            **calls("plots.rendering:draw"),
         message:
             f"Draw the {part}"
         script:

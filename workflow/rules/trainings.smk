@@ -117,7 +117,7 @@ rule mapping:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("mapping.measured:measure"),
+        **calls("mapping.jobs:measure"),
     message:
         "Measure the true mapping"
     script:
@@ -136,7 +136,7 @@ rule learning:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("mapping.measured:learn"),
+        **calls("mapping.jobs:learn"),
     message:
         "Learn from a table, and with constant widths"
     script:
