@@ -249,6 +249,8 @@ def wrong_calls() -> Iterator[tuple[Callable[..., object], tuple]]:
         lambda: recalib.train(plant, learner, poses, poses, [0, 3]),
         lambda: recalib.train(plant, learner, poses, poses, [-1, 2]),
         lambda: recalib.train(plant, learner, poses, poses, []),
+        lambda: recalib.train(plant, learner, poses, poses, np.eye(2)),
+        lambda: load(home, *ranges, name=np.ones(2)),
         lambda: controller.inverse(np.eye(4)),
         lambda: robot.workspace.to_poses(np.zeros(5)),
         lambda: recalib.position_error(np.zeros(3), np.zeros(3)),

@@ -123,10 +123,10 @@ def train(
         poses = desired[None], tests[None]
         return train(plant, learner, *poses, measure_at, progress, error).of_run(0)
     check_kind("measure_at", measure_at, Iterable)
-    iterations, times = desired.shape[1], [*measure_at]
-    if not times or not all(time in range(iterations + 1) for time in times):
-        raise InvalidSetting("measure_at", times, f"numbers from 0 to {iterations}, at least one")
-    times = sorted({*times})
+    iterations, given = desired.shape[1], array_of("measure_at", [*measure_at], ("n",)).tolist()
+    if not given or not all(time in range(iterations + 1) for time in given):
+        raise InvalidSetting("measure_at", given, f"numbers from 0 to {iterations}, at least one")
+    times = sorted({*map(int, given)})
     position, orientation, moves, refused = [], [], [], []
     for iteration in range(iterations + 1):
         if iteration in times:
