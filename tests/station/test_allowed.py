@@ -1,5 +1,6 @@
 """Where an arm may be sent: limits, span, box, floor and itself; and what it asks before a move."""
 
+import io
 import os
 import sys
 import threading
@@ -202,9 +203,10 @@ def test_a_prompt_says_where_the_tool_goes_and_which_joints_turn(arm_and_move, m
     away = 1e3 * np.linalg.norm(move.tool_after - move.tool_before)
     assert f"{away:.0f} mm away: shoulder_pan_joint by +30.0 deg, elbow_joint by -12.3 deg" in text
     assert text.count("joint by") == 8 and "s: skip this posture for good, q: end" in text
-    monkeypatch.setattr("sys.stdin.readline", lambda: "", raising=False)
-    with pytest.raises(InvalidSetting, match="an answer is missing; expected: a person at"):
-        ask_to_move(arm, move)
+    for closed in (None, io.StringIO()):
+        monkeypatch.setattr("sys.stdin", closed)
+        with pytest.raises(InvalidSetting, match="an answer is missing; expected: a person at"):
+            ask_to_move(arm, move)
 
 
 def test_what_was_typed_before_the_prompt_is_no_answer(arm_and_move, monkeypatch):

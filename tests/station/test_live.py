@@ -261,10 +261,15 @@ STOPPED = {  # by the message, what a station does
         for text, wrong in (
             (r"\[0.0, .*, nan\]; expected: 6 finite numbers", [0.0] * 5 + [np.nan]),
             ("'none'; expected: numbers", "none"),
+            (r"\[True, .*; expected: numbers", [True] * 6),
+            (r"\[10000.*; expected: numbers", [10**400] * 6),
         )
     },
     "is invalid: 000.png is in an earlier row; expected: a new file for each picture": {
         "measured": lambda station, cells: cells | {"picture": "000.png"}
+    },
+    "is invalid: it is not CSV in UTF-8": {
+        "measured": lambda station, cells: cells | {"target": "\ud800"}
     },
     "is invalid: it has more than one column 'elbow_joint'": {
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
@@ -291,11 +296,10 @@ def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(message,
     station, lines = Spoilt(**changes), []
     with pytest.raises(StationFailed, match=message):
         run(station, tmp_path, on_progress=lines.append)
-    if "joints" not in changes:  # it was never asked for anything
-        assert station.calls.count("stop") == 1
-        assert "move" not in station.calls[station.calls.index("stop") :]
-        rows = (tmp_path / "table.csv").exists()
-        assert bool(re.match(r"stopped; \d+ rows are in ", (lines or [""])[-1])) == rows
+    assert station.calls.count("stop") == 1
+    assert "move" not in station.calls[station.calls.index("stop") :]
+    rows = (tmp_path / "table.csv").exists()
+    assert bool(re.match(r"stopped; \d+ rows are in ", (lines or [""])[-1])) == rows
 
 
 @pytest.mark.parametrize("joint", range(6))
@@ -375,6 +379,43 @@ def test_an_interrupt_stops_the_arm(tmp_path):
     with pytest.raises(Interrupted, match="the station was told to stop"):
         run(station, tmp_path, ask)
     assert station.calls[-1] == "stop"
+
+
+def test_an_interrupt_while_it_is_about_to_stop_does_not_keep_it_from_that(tmp_path, monkeypatch):
+    """A terminal that is closed fails to be read, and interrupts a moment later."""
+    station, stop = Simulated(), Guarded.stop
+    interrupts = iter([lambda: raising(KeyboardInterrupt)])
+    monkeypatch.setattr(Guarded, "stop", lambda self: next(interrupts, lambda: stop(self))())
+    with pytest.raises(OSError, match="hung up"):
+        run(station, tmp_path, lambda move: raising(OSError("hung up")))
+    assert station.calls[-1] == "stop"
+
+
+def test_a_move_that_waited_for_its_turn_is_not_made_after_a_stop():
+    station, free, busy = Simulated(), threading.Event(), threading.Event()
+    guarded = Guarded(lambda: station, station.arm)
+    station.angles = lambda: busy.set() or free.wait() and station.stands
+    caught = []
+
+    def ask(call):
+        try:
+            call()
+        except StationFailed as error:
+            caught.append(str(error))
+
+    for call in (guarded.angles, partial(guarded.move, station.stands, 1.0)):
+        threading.Thread(target=ask, args=(call,)).start()
+        busy.wait()
+    time.sleep(0.05)
+    guarded.stop()
+    free.set()
+    guarded.close()
+    assert caught == ["the station was stopped, so it cannot move"] and not station.moves
+
+
+def test_an_opening_without_a_station_is_told(tmp_path):
+    with pytest.raises(StationFailed, match="returned None; expected: a station"):
+        calibrate_live(lambda: None, Simulated().arm, tmp_path / "table.csv", LiveSettings())
 
 
 def test_a_torn_row_is_dropped_and_nothing_else(tmp_path, monkeypatch):
@@ -486,7 +527,13 @@ def test_who_ends_or_suspends_it_stops_the_arm_first(name, tmp_path, monkeypatch
     before = signal.getsignal(signum)
     monkeypatch.setattr("sys.stdin.readline", lambda: os.kill(os.getpid(), signum), raising=False)
     stopped = []
-    monkeypatch.setattr(Simulated, "stop", lambda station: stopped.append(station))
+
+    def stop(station):  # who is in a hurry does it again
+        os.kill(os.getpid(), signum)
+        time.sleep(0.05)
+        stopped.append(station)
+
+    monkeypatch.setattr(Simulated, "stop", stop)
     assert main(LINE.format(SIMULATED).split()) == REFUSED
     assert "recalib: interrupted; the station was told to stop" in capsys.readouterr().err
     assert len(stopped) == 1 and signal.getsignal(signum) == before

@@ -102,8 +102,13 @@ def universal_robot(arm, monkeypatch):
 class Future:
     """Its result is None until it is there."""
 
-    def __init__(self, result=lambda: None):
+    def __init__(self, result):
         self.result = result
+
+    def add_done_callback(self, callback):
+        while self.result() is None:
+            time.sleep(0.001)
+        callback(self)
 
 
 @pytest.fixture
@@ -130,14 +135,21 @@ def ros_arm(arm, monkeypatch):
         def send_goal_async(self, goal):
             assert goal.trajectory.joint_names == JOINTS
             (point,) = goal.trajectory.points
-            arm.go(point.positions, point.time_from_start / 50)
-            times.canceled = False
+            times.canceled, soon = False, time.monotonic() + 0.1
             handle = SimpleNamespace(
                 accepted=not arm.emergency,
                 get_result_async=lambda: Future(outcome),
                 cancel_goal_async=lambda: setattr(times, "canceled", True),
             )
-            return Future(lambda: handle)
+
+            def accepted():
+                if time.monotonic() < soon:
+                    return None
+                if handle.accepted and arm.goal.tolist() != point.positions:
+                    arm.go(point.positions, point.time_from_start / 50)
+                return handle
+
+            return Future(accepted)
 
     def joint_state():
         return SimpleNamespace(name=JOINTS, position=arm.now().tolist())

@@ -175,7 +175,10 @@ def calibrate_live(
         return Ended(session.run(ask, on_row), len(record))
     except BaseException as error:
         if station is not None:
-            station.stop()
+            try:
+                station.stop()
+            except KeyboardInterrupt:  # as a closed terminal is also an error of reading
+                station.stop()
         if len(record):
             on_progress(
                 f"stopped; {len(record)} rows are in {record.path}; to continue, repeat the command"
