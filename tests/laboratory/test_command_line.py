@@ -149,19 +149,20 @@ def test_a_table_whose_joints_reach_its_poses_in_the_other_frame_is_refused(
 
 
 def test_beyond_what_was_learned_it_warns(in_base, folder, capsys):
-    columns = {"swing [deg]": [0, 60, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
+    columns = {"swing [deg]": [0, -95, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
     last = {name: angles[2:] for name, angles in columns.items()}
     write(folder / "far.csv", last)
     out = folder / "far_commands.csv"
     assert main(["correct", str(in_base), str(folder / "far.csv"), f"--out={out}"]) == DONE
     printed = capsys.readouterr()
     assert "1 of 1 command leaves the measured range of swing; the farthest is row 1" in printed.err
-    assert printed.out.startswith("1 command in ")
+    assert printed.out.startswith("1 command in ") and "turns by" not in printed.err
     write(folder / "wide.csv", columns)
     out = folder / "wide_commands.csv"
     assert main(["correct", str(in_base), str(folder / "wide.csv"), f"--out={out}"]) == DONE
     text = capsys.readouterr().err
     assert "2 of 3 commands leave the measured range of swing; the farthest is row 3" in text
+    assert "warning: swing turns by 195 deg from row 2 to row 3; try: " in text
     beyond, low, high = re.search(r", with swing (.*) deg beyond (.*) to (.*) deg\n", text).groups()
     assert -52 < float(low) < -40 < 40 < float(high)
     assert float(beyond) == pytest.approx(100 - float(high), abs=3)

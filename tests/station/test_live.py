@@ -113,6 +113,15 @@ def test_a_command_takes_the_target_where_it_should_be(session):
         correction.command(np.array([9.0, 0, 0]), posture)
     with pytest.raises(UnknownName, match="unknown target"):
         correction.command(goal, posture, target="the board")
+    singular, refused = posture * [1, 1, 1, 1, 0, 1], []  # joints 4 and 6 are in line
+    for away in 5e-3 * np.random.default_rng(0).normal(size=(30, 3)):
+        goal = correction.calibration.predict(singular[None])[0]
+        goal[:3, 3] += away
+        try:
+            assert np.abs(correction.command(goal, singular) - singular).max() <= np.pi / 2
+        except NotReached as error:
+            refused.append(str(error))
+    assert any("by more than 90 deg from the given posture" in text for text in refused)
 
 
 def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(session):
