@@ -5,11 +5,13 @@ import re
 import signal
 import threading
 import time
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from recalib import (
     Answer,
@@ -33,7 +35,7 @@ from tests.conftest import few_folds
 from tests.identification.real import anywhere
 from tests.logged import logged
 from tests.station.conftest import FINE
-from tests.station.simulated import Ordered, Simulated, Spoilt
+from tests.station.simulated import HOMES, Ordered, Simulated, Spoilt
 
 SPAN = np.radians(45)
 
@@ -114,9 +116,9 @@ def test_a_command_takes_the_target_where_it_should_be(session):
     with pytest.raises(UnknownName, match="unknown target"):
         correction.command(goal, posture, target="the board")
     singular, refused = posture * [1, 1, 1, 1, 0, 1], []  # joints 4 and 6 are in line
-    for away in 5e-3 * np.random.default_rng(0).normal(size=(30, 3)):
+    for turn in 0.05 * np.random.default_rng(0).normal(size=(20, 3)):
         goal = correction.calibration.predict(singular[None])[0]
-        goal[:3, 3] += away
+        goal[:3, :3] = Rotation.from_rotvec(turn).as_matrix() @ goal[:3, :3]
         try:
             assert np.abs(correction.command(goal, singular) - singular).max() <= np.pi / 2
         except NotReached as error:
@@ -132,14 +134,15 @@ def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(session):
     joints = np.concatenate([rows.joints, more])
     measured = np.concatenate([rows.measured, station.real.poses(more, noise=FINE)])
 
-    def checked(count, *moved):
+    def checked(count, *moved, part=1.0):
         poses = measured.copy()
-        poses[[*moved]] = bump @ poses[[*moved]]
+        poses[[*moved]] = (part * bump + (1 - part) * np.eye(4)) @ poses[[*moved]]
         return session.running.check(Observations(joints, poses)[:count])
 
     count = len(rows)
     assert checked(count + 5) is None and checked(count + 2, count, count + 1) is None
     assert checked(count + 4, count, count + 2, count + 3) is None
+    assert checked(count + 3, count, count + 1, count + 2, part=0.1) is None  # 1 mm
     wrong = checked(count + 3, count, count + 1, count + 2)
     rows = f"in rows {count + 1} to {count + 3}"
     assert re.match(f"{rows} the target was measured (9|10).* mm from", wrong)
@@ -227,8 +230,11 @@ PROTECTIVE = "the protective stop of the arm is on"
 STOPPED = {  # by the message, what a station does
     PROTECTIVE: {"moved": lambda station: raising(StationFailed(PROTECTIVE))},
     "the station has not answered for 0.3 s when asked to move": {"moved": lambda _: time.sleep(1)},
-    "after a move, elbow_joint is 0.05 rad or m from its command": {
-        "moved": lambda station: station.shift(0, 0, 0.05, 0, 0, 0)
+    **{
+        f"after a move, {joint}_joint is 0.05 rad or m from its command": {
+            "moved": lambda station, by=by: station.shift(*by)
+        }
+        for joint, by in (("elbow", [0, 0, 0.05, 0, 0, 0]), ("wrist_1", [0, 0, 0, -0.05, 0, 0]))
     },
     "0.02 s after the arm should have stopped, the tool still moves by .* mm; expected: at most": {
         "angles": lambda station, angles: station.shift(1e-3) if moved(station) == 3 else angles
@@ -303,8 +309,10 @@ STOPPED = {  # by the message, what a station does
 @pytest.mark.parametrize(("message", "changes"), STOPPED.items(), ids=STOPPED)
 def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(message, changes, tmp_path):
     station, lines = Spoilt(**changes), []
-    with pytest.raises(StationFailed, match=message):
+    with pytest.raises(StationFailed, match=message) as raised:
         run(station, tmp_path, on_progress=lines.append)
+    if wrong := re.match(r"in row (\d+) the target", str(raised.value)):  # which is not written
+        assert len((tmp_path / "table.csv").read_text().splitlines()) == int(wrong[1])
     assert station.calls.count("stop") == 1
     assert "move" not in station.calls[station.calls.index("stop") :]
     rows = (tmp_path / "table.csv").exists()
@@ -332,8 +340,11 @@ def test_a_measurement_that_fails_is_repeated(fails, tmp_path):
 
 
 def test_joints_in_another_order_are_the_same_joints(tmp_path):
+    widths = np.linspace(0.1, 0.6, 6)  # rad: each joint has limits of its own
     for folder, station in (("other", Ordered()), ("own", Simulated())):
         (tmp_path / folder).mkdir()
+        order = getattr(station, "ORDER", slice(6))
+        station.limits = [(station.stands + sign * widths)[order] for sign in (-1, 1)]
         assert run(station, tmp_path / folder, few(3)).rows == 4
     tables = [tmp_path / folder / "table.csv" for folder in ("other", "own")]
     assert tables[0].read_bytes() == tables[1].read_bytes()
@@ -348,17 +359,18 @@ def test_an_answer_of_another_kind_is_no_end(answer, tmp_path):
     assert not moved(station) and station.calls.count("stop") == 1
 
 
-def test_the_way_home_is_asked_for_and_may_be_refused(tmp_path):
+@pytest.mark.parametrize("made", [0, 1])  # moves of the way by home
+def test_the_way_home_is_asked_for_and_may_be_refused(made, tmp_path):
     box = Box(np.array([0.5, -0.7, 0.2]), np.array([1.0, 0.8, 0.4]))
-    station, home, goals = Simulated(), Simulated().stands, []
+    station, home, goals = Simulated(), Simulated().stands.tolist(), []
 
     def ask(move):
-        goals.append(move.goal)
-        return Answer.END if np.array_equal(move.goal, home) else Answer.MOVE
+        goals.append(move.goal.tolist())
+        return Answer.END if home in goals[: len(goals) - made] else Answer.MOVE
 
     end = run(station, tmp_path, ask, error=1e-9, most=60, box=box)
-    assert end.reason == "you ended it" and np.array_equal(goals[-1], home)
-    assert [move.tolist() for move, _ in station.moves] == [goal.tolist() for goal in goals[:-1]]
+    assert end.reason == "you ended it" and goals[-1 - made] == home
+    assert [move.tolist() for move, _ in station.moves] == goals[:-1]
 
 
 def test_an_arm_that_is_moved_by_hand_while_it_asks_is_not_sent(tmp_path):
@@ -403,23 +415,24 @@ def test_an_interrupt_while_it_is_about_to_stop_does_not_keep_it_from_that(tmp_p
 def test_a_move_that_waited_for_its_turn_is_not_made_after_a_stop():
     station, free, busy = Simulated(), threading.Event(), threading.Event()
     guarded = Guarded(lambda: station, station.arm)
-    station.angles = lambda: busy.set() or free.wait() and station.stands
-    caught = []
+    station.angles = lambda: busy.set() or (free.wait() and station.stands)
 
     def ask(call):
-        try:
+        with suppress(StationFailed):
             call()
-        except StationFailed as error:
-            caught.append(str(error))
 
-    for call in (guarded.angles, partial(guarded.move, station.stands, 1.0)):
-        threading.Thread(target=ask, args=(call,)).start()
+    calls = guarded.angles, partial(guarded.move, station.stands, 1.0)
+    threads = [threading.Thread(target=ask, args=(call,)) for call in calls]
+    for thread in threads:
+        thread.start()
         busy.wait()
     time.sleep(0.05)
     guarded.stop()
     free.set()
+    for thread in threads:
+        thread.join()
     guarded.close()
-    assert caught == ["the station was stopped, so it cannot move"] and not station.moves
+    assert not station.moves
 
 
 def test_an_opening_without_a_station_is_told(tmp_path):
@@ -505,6 +518,39 @@ SIMULATED = "tests.station.simulated:Simulated"
 def type_lines(monkeypatch, *lines):
     answers = iter([f"{line}\n" for line in lines])
     monkeypatch.setattr("sys.stdin.readline", lambda: next(answers), raising=False)
+
+
+def test_the_options_bound_each_move(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    moves, (station, home) = [], (Simulated(), Simulated().stands)
+
+    def move(station, angles, speed):
+        moves.append((angles, speed))
+        station.stands = angles
+
+    monkeypatch.setattr(Simulated, "move", move)
+    type_lines(monkeypatch, *[""] * 8, "q")
+    options = ["--span=20 deg", "--speed=0.03", "--floor=5 cm", "--no-self-collision"]
+    box = ["--box", "60 cm to 90 cm", "-1 m to 1 m", "0 m to 30 cm"]
+    assert main(["live", SIMULATED, "ur10_robot.urdf", "--tool=tool0", *options, *box]) == DONE
+    goals = np.array([angles for angles, _ in moves])
+    x, _, z = station.arm.forward(goals)[:, :3, 3].T
+    assert np.radians(15) < np.abs(goals - home).max() <= np.radians(20)
+    assert (x > 0.6).all() and (x < 0.9).all() and (z > 0.07).all() and (z < 0.3).all()
+    assert [speed for _, speed in moves] == [0.03] * 8
+
+
+@pytest.mark.parametrize("apart", [True, False])
+def test_links_keep_apart_unless_told_otherwise(apart, tmp_path, monkeypatch, capsys):
+    """The first session left the arm with a wrist on its upper arm."""
+    monkeypatch.chdir(tmp_path)
+    type_lines(monkeypatch, "q", "q")
+    words = ["live", SIMULATED, "ur10_robot.urdf", "--tool=tool0", "--floor=none"]
+    words += ["--span=140 deg", *["--no-self-collision"] * (not apart)]
+    assert main(words) == DONE
+    monkeypatch.setitem(HOMES, "UR10", [0, -1.2, 2.7, 0, -1.6, 0])
+    assert main(words) == (REFUSED if apart else DONE)
+    assert ("upper_arm_link nearer than 20 mm to wrist_2_link" in capsys.readouterr().err) == apart
 
 
 def test_a_skipped_posture_is_not_proposed_again_and_an_end_is_no_error(

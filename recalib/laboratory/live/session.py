@@ -246,14 +246,12 @@ class _Session:
     def _go_to(self, goal: np.ndarray, ask: Callable[[Move], Answer]) -> Answer:
         """Move to a posture if a person agrees, and return the answer."""
         for posture in self.postures.path(self.station.angles(), goal):
-            start = self.station.angles()
-            self.postures.check(start, posture)
-            tool = self.postures.tool
+            start, tool = self.station.angles(), self.postures.tool
             answer = ask(Move(start, posture, tool(start), tool(posture)))
             check_kind("the answer to a move", answer, Answer)
             if answer is not Answer.MOVE:
                 return answer
-            # a person may have moved the arm while the question was open
+            # also because a person may have moved the arm while the question was open
             self.postures.check(self.station.angles(), posture)
             self.station.move(posture, self.settings.speed)
         return Answer.MOVE
