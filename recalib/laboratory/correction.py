@@ -130,8 +130,8 @@ class Correction:
             near: (joints,) rad, m, such as the last command: the solution stays on its branch.
             target, frame: see `correct`.
 
-        Raises like `correct`, and NotReached if a joint would turn by more than 90 degrees from
-        `near`, as at a singularity.
+        Raises like `correct`, and NotReached if a joint would turn by more than 90 degrees, or
+        slide by more than 785 mm, from `near`, as at a singularity.
         """
         goals = self._goals(pose, near, target, frame)
         (found,) = reach_all(self.calibration, self.postures, goals)
@@ -139,7 +139,8 @@ class Correction:
         turns = np.abs(found - near) / np.where(coupling.slides, LEVER, 1.0)
         if (far := turns > STEP).any():
             names = listed(np.array(coupling.columns)[far], "and")
-            raise NotReached([1], f"only with {names} by more than 90 deg from the given posture")
+            farthest = f"90 deg, or {1e3 * LEVER * STEP:.0f} mm if prismatic,"
+            raise NotReached([1], f"only with {names} more than {farthest} from the given posture")
         return found
 
     @cached_property

@@ -178,11 +178,17 @@ def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, 
     )
     message += r" predicted positions from 0\.0\d+ mm to 0\.0\d+ mm[.:]"
     assert re.match(message, capsys.readouterr().out)
+    measured = np.random.default_rng(0).uniform(-1.99, 1.99, (30, 3))  # up to the limits
+    replace(load_correction(calibrated), learned=measured).save(folder / "wide.npz")
+    assert main(["next", str(folder / "wide.npz"), "--count=9", f"--out={folder}/ends.csv"]) == DONE
+    assert np.abs(angles_in(pd.read_csv(folder / "ends.csv"), arm)).max() <= 0.95 * 2 + 1e-9
 
 
 @pytest.mark.parametrize("beyond", [1, 5])
 def test_candidates_that_are_left_out_are_counted(beyond, calibrated, folder, capsys):
-    swing = [1e-3 * row for row in range(4)] + [114.0] * beyond  # deg, at the end of the range
+    swing = [1e-3 * row for row in range(4)] + [114.0, -114.0, 114.0, 114.0, -114.0][
+        :beyond
+    ]  # deg, at the ends
     cells = {f"{joint} [deg]": [0.0] * len(swing) for joint in ("lift", "elbow")}
     write(folder / "candidates.csv", {"swing [deg]": swing} | cells)
     out = f"--out={folder / 'chosen.csv'}"

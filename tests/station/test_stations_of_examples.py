@@ -14,7 +14,7 @@ import cv2
 import rerun as rr
 from watched_pictures import ShownPictures
 
-from recalib import StationFailed
+from recalib import StationFailed, load_arm
 from recalib.station import open_station
 from recalib.vision.views import projected
 from tests.conftest import ROOT
@@ -197,9 +197,13 @@ def test_a_station_is_read_in_a_minute(path):
     assert len(path.read_text().splitlines()) <= 80
 
 
-def test_a_station_moves_and_takes_a_picture(station, tmp_path):
-    station.move(GOAL, 0.5)
-    assert station.angles() == pytest.approx(GOAL, abs=2e-3)
+def test_a_station_moves_as_fast_as_asked_and_takes_a_picture(station, arm, tmp_path):
+    seconds = []
+    for goal, speed in ((GOAL, 0.25), (0 * GOAL, 0.5)):  # and back
+        station.move(goal, speed)
+        assert station.angles() == pytest.approx(goal, abs=2e-3)
+        seconds.append(arm.seconds)
+    assert 1.5 < seconds[0] / seconds[1] < 2.01
     low, high = station.limits
     assert len(station.joints) == len(low) == len(high) == 6
     first, second = (station.measure()["picture"] for _ in range(2))
@@ -207,6 +211,10 @@ def test_a_station_moves_and_takes_a_picture(station, tmp_path):
     picture = cv2.imread(str(tmp_path / first))
     assert picture.shape == (48, 64, 3)
     assert picture[5, 5].tolist() in ([7, 7, 7], [7, 5, 9])
+
+
+def test_a_universal_robot_names_its_joints_from_base_to_wrist(universal_robot):
+    assert universal_robot.joints == load_arm("ur5_robot.urdf", "tool0").joints
 
 
 def test_an_emergency_stop_ends_the_session_and_the_next_one_goes_on(station, arm):
