@@ -230,8 +230,10 @@ def test_an_emergency_stop_ends_the_session_and_the_next_one_goes_on(station, ar
 
 def test_stop_ends_a_move_from_another_thread(station, arm):
     threading.Timer(0.05, station.stop).start()
+    start = time.monotonic()
     with pytest.raises(StationFailed):
         station.move(GOAL * 40, 0.5)
+    assert time.monotonic() - start < 10
     assert np.abs(arm.now()).max() < np.abs(GOAL * 40).max() / 2
     station.stop()
 
