@@ -114,17 +114,17 @@ class Future:
 @pytest.fixture
 def ros_arm(arm, monkeypatch):
     """Goals are accepted or not; a result has an error code, and comes when the arm stands."""
-    subscriptions, times = {}, SimpleNamespace(canceled=False)
+    subscriptions, times = {}, SimpleNamespace(canceled=False, order=[0, 1, 2, 3, 4, 5])
 
     def goal():
         return SimpleNamespace(trajectory=SimpleNamespace(joint_names=[], points=[]))
 
     def outcome():
-        code, text = 0, ""  # SUCCESSFUL
-        if arm.emergency or times.canceled:
+        code, text = 0, ""  # SUCCESSFUL, also of a goal that was rejected
+        if (arm.emergency or times.canceled) and times.accepted:
             arm.halt()
             code, text = -4, "aborted"  # PATH_TOLERANCE_VIOLATED
-        elif arm.part() < 1:
+        elif times.accepted and arm.part() < 1:
             return None
         return SimpleNamespace(result=SimpleNamespace(error_code=code, error_string=text))
 
@@ -136,8 +136,9 @@ def ros_arm(arm, monkeypatch):
             assert goal.trajectory.joint_names == JOINTS
             (point,) = goal.trajectory.points
             times.canceled, soon = False, time.monotonic() + 0.1
+            times.accepted = not arm.emergency
             handle = SimpleNamespace(
-                accepted=not arm.emergency,
+                accepted=times.accepted,
                 get_result_async=lambda: Future(outcome),
                 cancel_goal_async=lambda: setattr(times, "canceled", True),
             )
@@ -152,7 +153,8 @@ def ros_arm(arm, monkeypatch):
             return Future(accepted)
 
     def joint_state():
-        return SimpleNamespace(name=JOINTS, position=arm.now().tolist())
+        names = [JOINTS[joint] for joint in times.order]
+        return SimpleNamespace(name=names, position=arm.now()[times.order].tolist())
 
     def image():
         sec, nanosec = divmod(time.time_ns(), 10**9)
@@ -184,7 +186,9 @@ def ros_arm(arm, monkeypatch):
     module(monkeypatch, "trajectory_msgs.msg", JointTrajectoryPoint=SimpleNamespace)
     monkeypatch.setenv("ARM", "/arm/follow_joint_trajectory")
     monkeypatch.setenv("CAMERA", "/camera/image_raw")
-    return open_station(f"{STATIONS}/ros2.py:RosArm")
+    station = open_station(f"{STATIONS}/ros2.py:RosArm")
+    times.order = [1, 2, 0, 4, 5, 3]  # another node reports them, too
+    return station
 
 
 @pytest.fixture(params=["universal_robot", "ros_arm"])
