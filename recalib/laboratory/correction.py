@@ -135,8 +135,8 @@ class Correction:
         """
         goals = self._goals(pose, near, target, frame)
         (found,) = reach_all(self.calibration, self.postures, goals)
-        coupling = self.arm.coupling
-        turns = np.abs(found - near) / np.where(coupling.slides, LEVER, 1.0)
+        start, coupling = found if goals.postures is None else goals.postures[0], self.arm.coupling
+        turns = np.abs(found - start) / np.where(coupling.slides, LEVER, 1.0)
         if (far := turns > STEP).any():
             names = listed(np.array(coupling.columns)[far], "and")
             farthest = f"90 deg, or {1e3 * LEVER * STEP:.0f} mm if prismatic,"
