@@ -113,7 +113,7 @@ def test_a_command_takes_the_target_where_it_should_be(session):
     np.testing.assert_allclose(correction.command(pose, posture + 0.02), posture, atol=1e-6)
     for turn in (-1.7, 1.7):  # rad
         with pytest.raises(NotReached, match="only with wrist_3_joint more than 90 deg"):
-            correction.command(pose, posture + turn * np.eye(6)[5])
+            correction.command(pose, [posture + turn * np.eye(6)[5]])
     with pytest.raises(NotReached):
         correction.command(np.array([9.0, 0, 0]), posture)
     with pytest.raises(UnknownName, match="unknown target"):
