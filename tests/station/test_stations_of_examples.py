@@ -221,6 +221,14 @@ def test_a_universal_robot_names_its_joints_from_base_to_wrist(universal_robot):
     assert universal_robot.joints == load_arm("ur5_robot.urdf", "tool0").joints
 
 
+def test_a_universal_robot_moves_no_more_after_a_stop(universal_robot, arm):
+    """Which may come between the question and the move."""
+    universal_robot.stop()
+    with pytest.raises(StationFailed, match="did not arrive"):
+        universal_robot.move(40 * GOAL, 0.5)
+    assert np.abs(arm.now()).max() < np.abs(GOAL * 40).max() / 2
+
+
 def test_an_emergency_stop_ends_the_session_and_the_next_one_goes_on(station, arm):
     threading.Timer(0.05, lambda: setattr(arm, "emergency", True)).start()
     with pytest.raises(StationFailed, match="stopped"):
