@@ -52,8 +52,8 @@ class RosArm:
         goal, to = FollowJointTrajectory.Goal(), JointTrajectoryPoint(positions=angles.tolist())
         to.time_from_start = Duration(seconds=seconds).to_msg()
         goal.trajectory.joint_names, goal.trajectory.points = self.joints, [to]
-        sent = self._wait(self._action.send_goal_async(goal).result)
-        self._latest[ActionClient] = sent
+        self._latest[ActionClient] = accepting = self._action.send_goal_async(goal)
+        sent = self._wait(accepting.result)
         ended = self._wait(sent.get_result_async().result, seconds + PATIENCE).result
         if not sent.accepted or ended.error_code:  # zero is SUCCESSFUL
             raise StationFailed(f"the arm stopped on its way: {ended.error_string}")
@@ -76,5 +76,5 @@ class RosArm:
         return image if 10**9 * stamp.sec + stamp.nanosec > since else None
 
     def stop(self) -> None:
-        if sent := self._latest.get(ActionClient):
-            sent.cancel_goal_async()
+        if accepting := self._latest.get(ActionClient):  # or accepted
+            accepting.add_done_callback(lambda sent: sent.result().cancel_goal_async())

@@ -38,7 +38,6 @@ class UniversalRobot:
         self._stopped = threading.Event()
 
     def move(self, angles: np.ndarray, speed: float) -> None:
-        self._stopped.clear()
         # without waiting: moveJ would keep `stop` from being sent
         if not self._control.moveJ(angles.tolist(), speed * FASTEST, ACCELERATION, True):
             raise StationFailed("the controller refused the move")

@@ -32,6 +32,7 @@ from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
 from recalib.spelling import counted
 
+FLIP = 180.0  # deg: a joint that turns by more between two rows is on another branch
 TURNED = 0.01  # deg: a rotation with a smaller error counts as reached
 ENOUGH = 0.05  # of the uncertainty: a smaller reduction is not worth the measurements
 Options = argparse.Namespace
@@ -166,6 +167,7 @@ def correct(options: Options) -> int:
     values["ends"] = correction.unidentifiable_ends if frame == BASE else None
     values["turned"] = np.degrees(commands.turned)
     values["beyond"] = _beyond(correction, commands) if commands.beyond.any() else None
+    values["flip"] = _flip(correction, commands)
     for line in render("correct.txt.j2", **values).splitlines():
         print(f"recalib: warning: {line}", file=sys.stderr)
     made = counted(len(commands.joints), "command")
@@ -243,6 +245,15 @@ def _beyond(correction: Correction, commands: Commands) -> dict[str, Any]:
         "far": scale * commands.beyond[row, joint],
         "ends": (scale * low[joint], scale * high[joint]),
     }
+
+
+def _flip(correction: Correction, commands: Commands) -> dict[str, Any] | None:
+    """The largest turn of a joint from a row to the next, if it is a flip."""
+    coupling, joints = correction.arm.coupling, commands.joints
+    turns = np.degrees(np.abs(np.diff(joints, axis=0, prepend=joints[:1]))) * ~coupling.slides
+    row, joint = np.unravel_index(turns.argmax(), turns.shape)
+    turn = turns[row, joint]
+    return {"row": row, "joint": coupling.columns[joint], "turn": turn} if turn > FLIP else None
 
 
 def board(options: Options) -> int:

@@ -24,7 +24,8 @@ from recalib.files.storage import path_of, read_file, whole
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.postures import outside_of
 from recalib.identification.model.error_model import by_sight
-from recalib.laboratory.reaching import Goals, poses_at, reach_all
+from recalib.identification.model.linearisation import LEVER
+from recalib.laboratory.reaching import Goals, NotReached, poses_at, reach_all
 from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.workspace import orientation_error
@@ -35,6 +36,7 @@ NAME = "correction.npz"  # of the file in the folder of a calibration
 BASE, INSTRUMENT = FRAMES = "base", "instrument"  # of desired poses
 NEAR = 0.05  # m between a desired pose and the arm's pose at the joints given with it
 BETTER = 0.1  # the fraction of this distance that remains if the poses are in the other frame
+STEP = np.pi / 2  # rad: a command farther from the last one would swing the arm
 MARGIN = 0.05  # at either end of the measured range, as a fraction of this range
 
 
@@ -128,10 +130,18 @@ class Correction:
             near: (joints,) rad, m, such as the last command: the solution stays on its branch.
             target, frame: see `correct`.
 
-        Raises like `correct`.
+        Raises like `correct`, and NotReached if a joint would turn by more than 90 degrees, or
+        slide by more than 785 mm, from `near`, as at a singularity.
         """
         goals = self._goals(pose, near, target, frame)
-        return reach_all(self.calibration, self.postures, goals)[0]
+        (found,) = reach_all(self.calibration, self.postures, goals)
+        start, coupling = found if goals.postures is None else goals.postures[0], self.arm.coupling
+        turns = np.abs(found - start) / np.where(coupling.slides, LEVER, 1.0)
+        if (far := turns > STEP).any():
+            names = listed(np.array(coupling.columns)[far], "and")
+            farthest = f"90 deg, or {1e3 * LEVER * STEP:.0f} mm if prismatic,"
+            raise NotReached([1], f"only with {names} more than {farthest} from the given posture")
+        return found
 
     @cached_property
     def postures(self) -> np.ndarray:

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from recalib.arrays import numbers as numbers_in
+from recalib.errors import InvalidSetting
 from recalib.files.quantities import ANGLE
 from recalib.nominal.kinematics import Arm
 from recalib.station.interface import Station, StationFailed
@@ -43,14 +45,25 @@ class Guarded:
         self._station: Station | None = None
         threading.Thread(target=self._work, name="station", daemon=True).start()
         self._station = self._ask("open", opening)
+        if self._station is None:
+            raise StationFailed("opening the station returned None; expected: a station")
+        try:
+            self._order = self._order_of_joints()
+        except BaseException:
+            self.stop()
+            self.close()
+            raise
+
+    def _order_of_joints(self) -> list[int]:
+        """The place of each joint of the arm among those of the station."""
         names = self._ask("name its joints", lambda station: [*station.joints])
-        joints = arm.joints
+        joints = self._arm.joints
         if sorted(map(str, names)) != sorted(joints):
             raise StationFailed(
                 f"the station's joints are {', '.join(map(str, names))}; expected: those of the"
                 f" arm, {', '.join(joints)}"
             )
-        self._order = [names.index(joint) for joint in joints]
+        return [names.index(joint) for joint in joints]
 
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """The lowest and highest joint angles (joints,) [rad, m] that the station allows."""
@@ -104,10 +117,9 @@ class Guarded:
         return angles, cells
 
     def stop(self) -> None:
-        """Stop the station, once; all later calls are refused."""
-        if not self._stopped:
-            self._stopped = True
-            self._at_last(lambda station: station.stop())
+        """Stop the station; all later calls are refused."""
+        self._stopped = True
+        self._at_last(lambda station: station.stop())
 
     def close(self) -> None:
         """Release the station: call its method `close`, if it has one.
@@ -147,9 +159,12 @@ class Guarded:
         return answer
 
     def _ask(self, what: str, call: Callable[..., Any]) -> Any:
-        if self._stopped:
-            raise StationFailed(f"the station was stopped, so it cannot {what}")
-        answer = self._call(call if self._station is None else partial(call, self._station))
+        def unless_stopped() -> Any:  # also if it was stopped while this call waited for its turn
+            if self._stopped:
+                raise StationFailed(f"the station was stopped, so it cannot {what}")
+            return call() if self._station is None else call(self._station)
+
+        answer = self._call(unless_stopped)
         if not wait([answer], PATIENCE).done:
             self._hangs = True
             raise StationFailed(
@@ -185,8 +200,8 @@ class Guarded:
     def _numbers(self, name: str, given: Any) -> np.ndarray:
         """The numbers (joints,) in a station's answer, in the order of the arm's joints."""
         try:
-            numbers = np.asarray(given, dtype=float)
-        except (TypeError, ValueError):
+            numbers = numbers_in(name, given)
+        except InvalidSetting:
             raise StationFailed(f"the station's {name} are {given!r}; expected: numbers") from None
         if numbers.shape != (len(self._order),) or not np.isfinite(numbers).all():
             found, valid = numbers.tolist(), f"{len(self._order)} finite numbers"

@@ -149,19 +149,20 @@ def test_a_table_whose_joints_reach_its_poses_in_the_other_frame_is_refused(
 
 
 def test_beyond_what_was_learned_it_warns(in_base, folder, capsys):
-    columns = {"swing [deg]": [0, 60, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
+    columns = {"swing [deg]": [0, -95, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
     last = {name: angles[2:] for name, angles in columns.items()}
     write(folder / "far.csv", last)
     out = folder / "far_commands.csv"
     assert main(["correct", str(in_base), str(folder / "far.csv"), f"--out={out}"]) == DONE
     printed = capsys.readouterr()
     assert "1 of 1 command leaves the measured range of swing; the farthest is row 1" in printed.err
-    assert printed.out.startswith("1 command in ")
+    assert printed.out.startswith("1 command in ") and "turns by" not in printed.err
     write(folder / "wide.csv", columns)
     out = folder / "wide_commands.csv"
     assert main(["correct", str(in_base), str(folder / "wide.csv"), f"--out={out}"]) == DONE
     text = capsys.readouterr().err
     assert "2 of 3 commands leave the measured range of swing; the farthest is row 3" in text
+    assert "warning: swing turns by 195 deg from row 2 to row 3; try: " in text
     beyond, low, high = re.search(r", with swing (.*) deg beyond (.*) to (.*) deg\n", text).groups()
     assert -52 < float(low) < -40 < 40 < float(high)
     assert float(beyond) == pytest.approx(100 - float(high), abs=3)
@@ -177,11 +178,17 @@ def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, 
     )
     message += r" predicted positions from 0\.0\d+ mm to 0\.0\d+ mm[.:]"
     assert re.match(message, capsys.readouterr().out)
+    measured = np.random.default_rng(0).uniform(-1.99, 1.99, (30, 3))  # up to the limits
+    replace(load_correction(calibrated), learned=measured).save(folder / "wide.npz")
+    assert main(["next", str(folder / "wide.npz"), "--count=9", f"--out={folder}/ends.csv"]) == DONE
+    assert np.abs(angles_in(pd.read_csv(folder / "ends.csv"), arm)).max() <= 0.95 * 2 + 1e-9
 
 
 @pytest.mark.parametrize("beyond", [1, 5])
 def test_candidates_that_are_left_out_are_counted(beyond, calibrated, folder, capsys):
-    swing = [1e-3 * row for row in range(4)] + [114.0] * beyond  # deg, at the end of the range
+    swing = [1e-3 * row for row in range(4)] + [114.0, -114.0, 114.0, 114.0, -114.0][
+        :beyond
+    ]  # deg, at the ends
     cells = {f"{joint} [deg]": [0.0] * len(swing) for joint in ("lift", "elbow")}
     write(folder / "candidates.csv", {"swing [deg]": swing} | cells)
     out = f"--out={folder / 'chosen.csv'}"

@@ -92,7 +92,7 @@ def test_one_pose_will_do_and_is_reached_from_what_was_learned(correction):
     assert np.abs(reached - goals).max() < 1e-7 and not commands.beyond.any()
 
 
-def test_an_arm_of_four_joints_turns_its_tool_as_near_as_it_can(load):
+def test_an_arm_of_four_joints_turns_its_tool_as_near_as_it_can(load, tmp_path, capsys):
     arm, random = load(SCARA), np.random.default_rng(5)
     joints = random.uniform([-1, 0.3, 0, -2], [1, 1.8, 0.3, 2], (40, 4))
     offsets = np.array([0.01, 0.02, 0.003, -0.02])
@@ -104,6 +104,15 @@ def test_an_arm_of_four_joints_turns_its_tool_as_near_as_it_can(load):
     commands = correction.correct(goals, frame="base")
     gaps = position_error(calibration.forward(commands.joints), goals)
     assert gaps.max() < 1e-7 and np.allclose(commands.turned, 0.003, rtol=0.05)
+    near = commands.joints[0] + np.eye(4)[2]
+    with pytest.raises(NotReached, match="only with quill more than 90 deg, or 785 mm if prism"):
+        correction.command(goals[0], near, frame="base")
+    correction.save(tmp_path / "correction.npz")
+    rows = "shoulder [deg],elbow [deg],quill [mm],wrist [deg]\n9,60,-1900,9\n9,60,1900,9\n"
+    (tmp_path / "far.csv").write_text(rows)
+    words = ["correct", str(tmp_path), f"{tmp_path}/far.csv", f"--out={tmp_path}/commands.csv"]
+    assert main(words) == DONE
+    assert "range of quill" in (told := capsys.readouterr().err) and "turns by" not in told
 
 
 @pytest.mark.parametrize("frame", ["base", "instrument"])

@@ -1,5 +1,6 @@
 """Where an arm may be sent: limits, span, box, floor and itself; and what it asks before a move."""
 
+import io
 import os
 import sys
 import threading
@@ -15,6 +16,7 @@ from recalib.laboratory.live.clearance import FLOOR, MARGIN, TOOL, Clearance
 from recalib.laboratory.live.command import ask_to_move
 from recalib.laboratory.live.session import Move
 from recalib.station.guarded import REACHED
+from tests.arms import SCARA
 from tests.station.conftest import MOST
 from tests.station.simulated import HOMES, URDFS, Simulated
 
@@ -101,6 +103,16 @@ def test_links_keep_apart_from_each_other(monkeypatch):
     assert any(map(touches, anywhere.joints))
 
 
+def test_links_that_are_near_in_the_first_posture_may_be_so():
+    arm, shapes, _ = allowed("UR10", floor=None)
+    clearance = Clearance(arm, np.array(HOMES["UR10"]), shapes, None, True, 0.0)
+    drawn = np.random.default_rng(0).uniform(-np.pi, np.pi, (1000, 6))
+    near = [joints for joints in drawn if clearance.touching(joints)][:5]
+    assert len(near) == 5
+    for home in near:
+        assert Clearance(arm, home, shapes, None, True, 0.0).touching(home) is None
+
+
 def test_shapes_that_no_file_has_are_named(tmp_path):
     source = """<robot name="arm"><link name="base"/><link name="tip"><collision><geometry>
         <mesh filename="gone.stl"/></geometry></collision><collision><geometry>
@@ -146,6 +158,19 @@ def test_where_an_arm_was_left_outside_the_span_it_stays(joint, by):
     assert postures.path(station.stands + np.sign(by) * 0.505 * away, postures.joints[0])
 
 
+@pytest.mark.parametrize("above", [0.008, 0.012])
+def test_half_of_the_margin_is_for_a_station_that_misses_a_posture(above):
+    station = Simulated()
+    home, goal = station.stands, station.stands + 0.2 * np.eye(6)[1]
+    floor = station.arm.forward(goal[None])[0, 2, 3] - above
+    clearance = Clearance(station.arm, home, pin.GeometryModel(), floor, True, 0.0)
+    postures = AllowedPostures(station.arm, home, station.limits, SPAN, None, clearance)
+    if above > MARGIN - REACHED:
+        return postures.check(home, goal)
+    with pytest.raises(StationFailed, match="would pass with its tool at .* to the floor"):
+        postures.check(home, goal)
+
+
 def test_an_arm_goes_by_way_of_home_if_something_is_in_the_straight_way():
     station = Simulated()
     box = Box(np.array([0.3, -0.6, 0.15]), np.array([1.2, 0.7, 0.35]))
@@ -159,6 +184,22 @@ def test_an_arm_goes_by_way_of_home_if_something_is_in_the_straight_way():
             assert (way >= box.low - 0.01).all() and (way <= box.high + 0.01).all()
             start = goal
         assert len(path) == 1 or np.array_equal(path[0], station.stands)
+
+
+@pytest.mark.parametrize("by", [-0.15, 0.15])  # m
+def test_a_joint_that_slides_moves_by_half_a_metre_for_each_rad(by, load, monkeypatch, capsys):
+    arm, home, widths = load(SCARA), np.array([0.2, 1.0, 0.3, 0.5]), 0.2 * np.array([1, 1, 0.5, 1])
+    postures = AllowedPostures(arm, home, (np.full(4, -3.0), np.full(4, 3.0)), 0.2)
+    farthest = np.abs(postures.joints - home).max(axis=0)
+    assert (0.9 * widths < farthest).all() and (farthest <= widths).all()
+    away = home + by * np.eye(4)[2]
+    x, y, z = 1e3 * arm.forward(away[None])[0, :3, 3]
+    found = rf"at \({x:.0f}, {y:.0f}, {z:.0f}\) mm and quill at {300 + 1e3 * by:.1f} mm; expected: "
+    with pytest.raises(StationFailed, match=rf"{found}200.0 to 400.0 mm, within --span"):
+        postures.path(away, home)
+    monkeypatch.setattr("sys.stdin", io.StringIO("\n"))
+    ask_to_move(arm, Move(home, away, np.zeros(3), np.ones(3)))
+    assert f": quill by {1e3 * by:+.1f} mm\n" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("wrong", ["1 m", "a to b", "1 m to 0 m", "0 m to 0 m", "0 m to 1 deg"])
@@ -202,9 +243,10 @@ def test_a_prompt_says_where_the_tool_goes_and_which_joints_turn(arm_and_move, m
     away = 1e3 * np.linalg.norm(move.tool_after - move.tool_before)
     assert f"{away:.0f} mm away: shoulder_pan_joint by +30.0 deg, elbow_joint by -12.3 deg" in text
     assert text.count("joint by") == 8 and "s: skip this posture for good, q: end" in text
-    monkeypatch.setattr("sys.stdin.readline", lambda: "", raising=False)
-    with pytest.raises(InvalidSetting, match="an answer is missing; expected: a person at"):
-        ask_to_move(arm, move)
+    for closed in (None, io.StringIO()):
+        monkeypatch.setattr("sys.stdin", closed)
+        with pytest.raises(InvalidSetting, match="an answer is missing; expected: a person at"):
+            ask_to_move(arm, move)
 
 
 def test_what_was_typed_before_the_prompt_is_no_answer(arm_and_move, monkeypatch):

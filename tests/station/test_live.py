@@ -5,11 +5,13 @@ import re
 import signal
 import threading
 import time
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from recalib import (
     Answer,
@@ -33,7 +35,7 @@ from tests.conftest import few_folds
 from tests.identification.real import anywhere
 from tests.logged import logged
 from tests.station.conftest import FINE
-from tests.station.simulated import Ordered, Simulated, Spoilt
+from tests.station.simulated import HOMES, Ordered, Simulated, Spoilt
 
 SPAN = np.radians(45)
 
@@ -109,10 +111,22 @@ def test_a_command_takes_the_target_where_it_should_be(session):
     assert np.abs(position - posture).max() < np.abs(command - posture).max() + 0.05
     pose = correction.calibration.predict(posture[None])[0]
     np.testing.assert_allclose(correction.command(pose, posture + 0.02), posture, atol=1e-6)
+    for turn in (-1.7, 1.7):  # rad
+        with pytest.raises(NotReached, match="only with wrist_3_joint more than 90 deg"):
+            correction.command(pose, [posture + turn * np.eye(6)[5]])
     with pytest.raises(NotReached):
         correction.command(np.array([9.0, 0, 0]), posture)
     with pytest.raises(UnknownName, match="unknown target"):
         correction.command(goal, posture, target="the board")
+    singular, refused = posture * [1, 1, 1, 1, 0, 1], []  # joints 4 and 6 are in line
+    for turn in 0.05 * np.random.default_rng(0).normal(size=(20, 3)):
+        goal = correction.calibration.predict(singular[None])[0]
+        goal[:3, :3] = Rotation.from_rotvec(turn).as_matrix() @ goal[:3, :3]
+        try:
+            assert np.abs(correction.command(goal, singular) - singular).max() <= np.pi / 2
+        except NotReached as error:
+            refused.append(str(error))
+    assert any("more than 90 deg" in text for text in refused)
 
 
 def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(session):
@@ -123,14 +137,15 @@ def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(session):
     joints = np.concatenate([rows.joints, more])
     measured = np.concatenate([rows.measured, station.real.poses(more, noise=FINE)])
 
-    def checked(count, *moved):
+    def checked(count, *moved, part=1.0):
         poses = measured.copy()
-        poses[[*moved]] = bump @ poses[[*moved]]
+        poses[[*moved]] = (part * bump + (1 - part) * np.eye(4)) @ poses[[*moved]]
         return session.running.check(Observations(joints, poses)[:count])
 
     count = len(rows)
     assert checked(count + 5) is None and checked(count + 2, count, count + 1) is None
     assert checked(count + 4, count, count + 2, count + 3) is None
+    assert checked(count + 3, count, count + 1, count + 2, part=0.1) is None  # 1 mm
     wrong = checked(count + 3, count, count + 1, count + 2)
     rows = f"in rows {count + 1} to {count + 3}"
     assert re.match(f"{rows} the target was measured (9|10).* mm from", wrong)
@@ -218,8 +233,11 @@ PROTECTIVE = "the protective stop of the arm is on"
 STOPPED = {  # by the message, what a station does
     PROTECTIVE: {"moved": lambda station: raising(StationFailed(PROTECTIVE))},
     "the station has not answered for 0.3 s when asked to move": {"moved": lambda _: time.sleep(1)},
-    "after a move, elbow_joint is 0.05 rad or m from its command": {
-        "moved": lambda station: station.shift(0, 0, 0.05, 0, 0, 0)
+    **{
+        f"after a move, {joint}_joint is 0.05 rad or m from its command": {
+            "moved": lambda station, by=by: station.shift(*by)
+        }
+        for joint, by in (("elbow", [0, 0, 0.05, 0, 0, 0]), ("wrist_1", [0, 0, 0, -0.05, 0, 0]))
     },
     "0.02 s after the arm should have stopped, the tool still moves by .* mm; expected: at most": {
         "angles": lambda station, angles: station.shift(1e-3) if moved(station) == 3 else angles
@@ -261,10 +279,15 @@ STOPPED = {  # by the message, what a station does
         for text, wrong in (
             (r"\[0.0, .*, nan\]; expected: 6 finite numbers", [0.0] * 5 + [np.nan]),
             ("'none'; expected: numbers", "none"),
+            (r"\[True, .*; expected: numbers", [True] * 6),
+            (r"\[10000.*; expected: numbers", [10**400] * 6),
         )
     },
     "is invalid: 000.png is in an earlier row; expected: a new file for each picture": {
         "measured": lambda station, cells: cells | {"picture": "000.png"}
+    },
+    "is invalid: it is not CSV in UTF-8": {
+        "measured": lambda station, cells: cells | {"target": "\ud800"}
     },
     "is invalid: it has more than one column 'elbow_joint'": {
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
@@ -289,13 +312,14 @@ STOPPED = {  # by the message, what a station does
 @pytest.mark.parametrize(("message", "changes"), STOPPED.items(), ids=STOPPED)
 def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(message, changes, tmp_path):
     station, lines = Spoilt(**changes), []
-    with pytest.raises(StationFailed, match=message):
+    with pytest.raises(StationFailed, match=message) as raised:
         run(station, tmp_path, on_progress=lines.append)
-    if "joints" not in changes:  # it was never asked for anything
-        assert station.calls.count("stop") == 1
-        assert "move" not in station.calls[station.calls.index("stop") :]
-        rows = (tmp_path / "table.csv").exists()
-        assert bool(re.match(r"stopped; \d+ rows are in ", (lines or [""])[-1])) == rows
+    if wrong := re.match(r"in row (\d+) the target", str(raised.value)):  # which is not written
+        assert len((tmp_path / "table.csv").read_text().splitlines()) == int(wrong[1])
+    assert station.calls.count("stop") == 1
+    assert "move" not in station.calls[station.calls.index("stop") :]
+    rows = (tmp_path / "table.csv").exists()
+    assert bool(re.match(r"stopped; \d+ rows are in ", (lines or [""])[-1])) == rows
 
 
 @pytest.mark.parametrize("joint", range(6))
@@ -319,8 +343,11 @@ def test_a_measurement_that_fails_is_repeated(fails, tmp_path):
 
 
 def test_joints_in_another_order_are_the_same_joints(tmp_path):
+    widths = np.linspace(0.1, 0.6, 6)  # rad: each joint has limits of its own
     for folder, station in (("other", Ordered()), ("own", Simulated())):
         (tmp_path / folder).mkdir()
+        order = getattr(station, "ORDER", slice(6))
+        station.limits = [(station.stands + sign * widths)[order] for sign in (-1, 1)]
         assert run(station, tmp_path / folder, few(3)).rows == 4
     tables = [tmp_path / folder / "table.csv" for folder in ("other", "own")]
     assert tables[0].read_bytes() == tables[1].read_bytes()
@@ -335,17 +362,18 @@ def test_an_answer_of_another_kind_is_no_end(answer, tmp_path):
     assert not moved(station) and station.calls.count("stop") == 1
 
 
-def test_the_way_home_is_asked_for_and_may_be_refused(tmp_path):
+@pytest.mark.parametrize("made", [0, 1])  # moves of the way by home
+def test_the_way_home_is_asked_for_and_may_be_refused(made, tmp_path):
     box = Box(np.array([0.5, -0.7, 0.2]), np.array([1.0, 0.8, 0.4]))
-    station, home, goals = Simulated(), Simulated().stands, []
+    station, home, goals = Simulated(), Simulated().stands.tolist(), []
 
     def ask(move):
-        goals.append(move.goal)
-        return Answer.END if np.array_equal(move.goal, home) else Answer.MOVE
+        goals.append(move.goal.tolist())
+        return Answer.END if home in goals[: len(goals) - made] else Answer.MOVE
 
     end = run(station, tmp_path, ask, error=1e-9, most=60, box=box)
-    assert end.reason == "you ended it" and np.array_equal(goals[-1], home)
-    assert [move.tolist() for move, _ in station.moves] == [goal.tolist() for goal in goals[:-1]]
+    assert end.reason == "you ended it" and goals[-1 - made] == home
+    assert [move.tolist() for move, _ in station.moves] == goals[:-1]
 
 
 def test_an_arm_that_is_moved_by_hand_while_it_asks_is_not_sent(tmp_path):
@@ -375,6 +403,44 @@ def test_an_interrupt_stops_the_arm(tmp_path):
     with pytest.raises(Interrupted, match="the station was told to stop"):
         run(station, tmp_path, ask)
     assert station.calls[-1] == "stop"
+
+
+def test_an_interrupt_while_it_is_about_to_stop_does_not_keep_it_from_that(tmp_path, monkeypatch):
+    """A terminal that is closed fails to be read, and interrupts a moment later."""
+    station, stop = Simulated(), Guarded.stop
+    interrupts = iter([lambda: raising(KeyboardInterrupt)])
+    monkeypatch.setattr(Guarded, "stop", lambda self: next(interrupts, lambda: stop(self))())
+    with pytest.raises(OSError, match="hung up"):
+        run(station, tmp_path, lambda move: raising(OSError("hung up")))
+    assert station.calls[-1] == "stop"
+
+
+def test_a_move_that_waited_for_its_turn_is_not_made_after_a_stop():
+    station, free, busy = Simulated(), threading.Event(), threading.Event()
+    guarded = Guarded(lambda: station, station.arm)
+    station.angles = lambda: busy.set() or (free.wait() and station.stands)
+
+    def ask(call):
+        with suppress(StationFailed):
+            call()
+
+    calls = guarded.angles, partial(guarded.move, station.stands, 1.0)
+    threads = [threading.Thread(target=ask, args=(call,)) for call in calls]
+    for thread in threads:
+        thread.start()
+        busy.wait()
+    time.sleep(0.05)
+    guarded.stop()
+    free.set()
+    for thread in threads:
+        thread.join()
+    guarded.close()
+    assert not station.moves
+
+
+def test_an_opening_without_a_station_is_told(tmp_path):
+    with pytest.raises(StationFailed, match="returned None; expected: a station"):
+        calibrate_live(lambda: None, Simulated().arm, tmp_path / "table.csv", LiveSettings())
 
 
 def test_a_torn_row_is_dropped_and_nothing_else(tmp_path, monkeypatch):
@@ -457,6 +523,39 @@ def type_lines(monkeypatch, *lines):
     monkeypatch.setattr("sys.stdin.readline", lambda: next(answers), raising=False)
 
 
+def test_the_options_bound_each_move(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    moves, (station, home) = [], (Simulated(), Simulated().stands)
+
+    def move(station, angles, speed):
+        moves.append((angles, speed))
+        station.stands = angles
+
+    monkeypatch.setattr(Simulated, "move", move)
+    type_lines(monkeypatch, *[""] * 8, "q")
+    options = ["--span=20 deg", "--speed=0.03", "--floor=5 cm", "--no-self-collision"]
+    box = ["--box", "60 cm to 90 cm", "-1 m to 1 m", "0 m to 30 cm"]
+    assert main(["live", SIMULATED, "ur10_robot.urdf", "--tool=tool0", *options, *box]) == DONE
+    goals = np.array([angles for angles, _ in moves])
+    x, _, z = station.arm.forward(goals)[:, :3, 3].T
+    assert np.radians(15) < np.abs(goals - home).max() <= np.radians(20)
+    assert (x > 0.6).all() and (x < 0.9).all() and (z > 0.07).all() and (z < 0.3).all()
+    assert [speed for _, speed in moves] == [0.03] * 8
+
+
+@pytest.mark.parametrize("apart", [True, False])
+def test_links_keep_apart_unless_told_otherwise(apart, tmp_path, monkeypatch, capsys):
+    """The first session left the arm with a wrist on its upper arm."""
+    monkeypatch.chdir(tmp_path)
+    type_lines(monkeypatch, "q", "q")
+    words = ["live", SIMULATED, "ur10_robot.urdf", "--tool=tool0", "--floor=none"]
+    words += ["--span=140 deg", *["--no-self-collision"] * (not apart)]
+    assert main(words) == DONE
+    monkeypatch.setitem(HOMES, "UR10", [0, -1.2, 2.7, 0, -1.6, 0])
+    assert main(words) == (REFUSED if apart else DONE)
+    assert ("upper_arm_link nearer than 20 mm to wrist_2_link" in capsys.readouterr().err) == apart
+
+
 def test_a_skipped_posture_is_not_proposed_again_and_an_end_is_no_error(
     tmp_path, monkeypatch, capsys
 ):
@@ -486,7 +585,13 @@ def test_who_ends_or_suspends_it_stops_the_arm_first(name, tmp_path, monkeypatch
     before = signal.getsignal(signum)
     monkeypatch.setattr("sys.stdin.readline", lambda: os.kill(os.getpid(), signum), raising=False)
     stopped = []
-    monkeypatch.setattr(Simulated, "stop", lambda station: stopped.append(station))
+
+    def stop(station):  # who is in a hurry does it again
+        os.kill(os.getpid(), signum)
+        time.sleep(0.05)
+        stopped.append(station)
+
+    monkeypatch.setattr(Simulated, "stop", stop)
     assert main(LINE.format(SIMULATED).split()) == REFUSED
     assert "recalib: interrupted; the station was told to stop" in capsys.readouterr().err
     assert len(stopped) == 1 and signal.getsignal(signum) == before

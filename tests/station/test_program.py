@@ -80,13 +80,19 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
         ("[INFO] measuring", "answered '.INFO. measuring' to 'measure'; expected: a JSON object"),
         ("[1, 2]", "expected: a JSON object on one line. Log messages belong on stderr"),
         ("[" * 100_000, "expected: a JSON object"),
-        ('{"error": "no tracker on port 3"}', "python.*: no tracker on port 3"),
         ("{}", "answered 'measure' without 'row'"),
     ],
 )
 def test_an_answer_that_is_none_is_told(program, answer, message):
     with pytest.raises(StationFailed, match=message):
         program(measure=answer).measure()
+
+
+def test_an_error_may_be_the_answer_to_each_request(program):
+    station = program(**dict.fromkeys(("move", "angles", "measure"), '{"error": "a collision"}'))
+    for ask in (lambda: station.move(np.zeros(2), 0.1), station.angles, station.measure):
+        with pytest.raises(StationFailed, match="python.*: a collision"):
+            ask()
 
 
 def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, monkeypatch):

@@ -14,7 +14,7 @@ import cv2
 import rerun as rr
 from watched_pictures import ShownPictures
 
-from recalib import StationFailed
+from recalib import StationFailed, load_arm
 from recalib.station import open_station
 from recalib.vision.views import projected
 from tests.conftest import ROOT
@@ -102,24 +102,29 @@ def universal_robot(arm, monkeypatch):
 class Future:
     """Its result is None until it is there."""
 
-    def __init__(self, result=lambda: None):
+    def __init__(self, result):
         self.result = result
+
+    def add_done_callback(self, callback):
+        while self.result() is None:
+            time.sleep(0.001)
+        callback(self)
 
 
 @pytest.fixture
 def ros_arm(arm, monkeypatch):
     """Goals are accepted or not; a result has an error code, and comes when the arm stands."""
-    subscriptions, times = {}, SimpleNamespace(canceled=False)
+    subscriptions, times = {}, SimpleNamespace(canceled=False, order=[0, 1, 2, 3, 4, 5])
 
     def goal():
         return SimpleNamespace(trajectory=SimpleNamespace(joint_names=[], points=[]))
 
     def outcome():
-        code, text = 0, ""  # SUCCESSFUL
-        if arm.emergency or times.canceled:
+        code, text = 0, ""  # SUCCESSFUL, also of a goal that was rejected
+        if (arm.emergency or times.canceled) and times.accepted:
             arm.halt()
             code, text = -4, "aborted"  # PATH_TOLERANCE_VIOLATED
-        elif arm.part() < 1:
+        elif times.accepted and arm.part() < 1:
             return None
         return SimpleNamespace(result=SimpleNamespace(error_code=code, error_string=text))
 
@@ -130,17 +135,26 @@ def ros_arm(arm, monkeypatch):
         def send_goal_async(self, goal):
             assert goal.trajectory.joint_names == JOINTS
             (point,) = goal.trajectory.points
-            arm.go(point.positions, point.time_from_start / 50)
-            times.canceled = False
+            times.canceled, soon = False, time.monotonic() + 0.1
+            times.accepted = not arm.emergency
             handle = SimpleNamespace(
-                accepted=not arm.emergency,
+                accepted=times.accepted,
                 get_result_async=lambda: Future(outcome),
                 cancel_goal_async=lambda: setattr(times, "canceled", True),
             )
-            return Future(lambda: handle)
+
+            def accepted():
+                if time.monotonic() < soon:
+                    return None
+                if handle.accepted and arm.goal.tolist() != point.positions:
+                    arm.go(point.positions, point.time_from_start / 50)
+                return handle
+
+            return Future(accepted)
 
     def joint_state():
-        return SimpleNamespace(name=JOINTS, position=arm.now().tolist())
+        names = [JOINTS[joint] for joint in times.order]
+        return SimpleNamespace(name=names, position=arm.now()[times.order].tolist())
 
     def image():
         sec, nanosec = divmod(time.time_ns(), 10**9)
@@ -172,7 +186,9 @@ def ros_arm(arm, monkeypatch):
     module(monkeypatch, "trajectory_msgs.msg", JointTrajectoryPoint=SimpleNamespace)
     monkeypatch.setenv("ARM", "/arm/follow_joint_trajectory")
     monkeypatch.setenv("CAMERA", "/camera/image_raw")
-    return open_station(f"{STATIONS}/ros2.py:RosArm")
+    station = open_station(f"{STATIONS}/ros2.py:RosArm")
+    times.order = [1, 2, 0, 4, 5, 3]  # another node reports them, too
+    return station
 
 
 @pytest.fixture(params=["universal_robot", "ros_arm"])
@@ -185,9 +201,13 @@ def test_a_station_is_read_in_a_minute(path):
     assert len(path.read_text().splitlines()) <= 80
 
 
-def test_a_station_moves_and_takes_a_picture(station, tmp_path):
-    station.move(GOAL, 0.5)
-    assert station.angles() == pytest.approx(GOAL, abs=2e-3)
+def test_a_station_moves_as_fast_as_asked_and_takes_a_picture(station, arm, tmp_path):
+    seconds = []
+    for goal, speed in ((GOAL, 0.25), (0 * GOAL, 0.5)):  # and back
+        station.move(goal, speed)
+        assert station.angles() == pytest.approx(goal, abs=2e-3)
+        seconds.append(arm.seconds)
+    assert 1.5 < seconds[0] / seconds[1] < 2.01
     low, high = station.limits
     assert len(station.joints) == len(low) == len(high) == 6
     first, second = (station.measure()["picture"] for _ in range(2))
@@ -195,6 +215,18 @@ def test_a_station_moves_and_takes_a_picture(station, tmp_path):
     picture = cv2.imread(str(tmp_path / first))
     assert picture.shape == (48, 64, 3)
     assert picture[5, 5].tolist() in ([7, 7, 7], [7, 5, 9])
+
+
+def test_a_universal_robot_names_its_joints_from_base_to_wrist(universal_robot):
+    assert universal_robot.joints == load_arm("ur5_robot.urdf", "tool0").joints
+
+
+def test_a_universal_robot_moves_no_more_after_a_stop(universal_robot, arm):
+    """Which may come between the question and the move."""
+    universal_robot.stop()
+    with pytest.raises(StationFailed, match="did not arrive"):
+        universal_robot.move(40 * GOAL, 0.5)
+    assert np.abs(arm.now()).max() < np.abs(GOAL * 40).max() / 2
 
 
 def test_an_emergency_stop_ends_the_session_and_the_next_one_goes_on(station, arm):
@@ -210,8 +242,10 @@ def test_an_emergency_stop_ends_the_session_and_the_next_one_goes_on(station, ar
 
 def test_stop_ends_a_move_from_another_thread(station, arm):
     threading.Timer(0.05, station.stop).start()
+    start = time.monotonic()
     with pytest.raises(StationFailed):
         station.move(GOAL * 40, 0.5)
+    assert time.monotonic() - start < 10
     assert np.abs(arm.now()).max() < np.abs(GOAL * 40).max() / 2
     station.stop()
 

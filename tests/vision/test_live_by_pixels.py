@@ -1,7 +1,9 @@
 """A station with a camera, and a live calibration that goes by the corners of its pictures."""
 
 import csv
+import io
 from dataclasses import replace
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -175,6 +177,50 @@ def test_a_picture_with_few_good_corners_is_no_sight_of_the_board(tmp_path, monk
     monkeypatch.setattr("recalib.vision.views.good_corners", few)
     pictures = BoardInPictures(cell.board, cell.lens, False)
     assert PicturesOfABoard(Photographs(path), pictures).measure() is None
+
+
+class Still:
+    """A Panda that takes a picture where it stands."""
+
+    in_hand = False
+
+    def __init__(self):
+        cell = Cell(3, self.in_hand)
+        (self.stands,) = cell.postures(1)
+        self.joints, model = cell.arm.joints, cell.arm.model
+        self.limits = model.lowerPositionLimit, model.upperPositionLimit
+        (self.pose,) = cell.board_poses(self.stands[None])
+        self.height = cell.arm.forward(self.stands[None])[0, 2, 3]
+        cv2.imwrite("000.png", cell.picture(self.pose))
+
+    def angles(self):
+        return self.stands
+
+    def measure(self):
+        return {"picture": "000.png"}
+
+    def stop(self): ...
+
+
+@pytest.mark.parametrize("in_hand", [False, True], ids=["fixed", "hand"])
+def test_the_options_tell_where_the_camera_is(in_hand, tmp_path, monkeypatch, capsys):
+    """A board on the hand needs room above the floor."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(Still, "in_hand", in_hand)
+    monkeypatch.setattr("sys.stdin", io.StringIO("q\n"))
+    station, cell = Still(), Cell(3, in_hand)
+    Path("board.toml").write_text(cell.board.described())
+    Path("lens.yaml").write_text(cell.lens.as_ros())
+    words = ["live", f"{__name__}:Still", "panda.urdf", "--tool=panda_link8", "--board=board.toml"]
+    words += ["--lens=lens.yaml", f"--camera={'hand' if in_hand else 'fixed'}", "--span=10 deg"]
+    floor = station.height - 0.9 * np.linalg.norm(cell.board.size) / 2
+    code = main([*words, f"--floor={floor} m", "--no-self-collision"])
+    close = "'the tool nearer than 20 mm to the floor'" in capsys.readouterr().err
+    assert (code == REFUSED) == close == (not in_hand)
+    if in_hand:
+        (row,) = csv.DictReader(Path("measurements.csv").read_text().splitlines())
+        place = np.linalg.inv(station.pose)[:3, 3]
+        assert [float(row[f"{axis} [m]"]) for axis in "xyz"] == pytest.approx(place, abs=2e-3)
 
 
 def test_a_board_needs_room_for_its_pictures(tmp_path, capsys):

@@ -52,8 +52,8 @@ class AllowedPostures:
 
     Args:
         home: (joints,) rad, m, the first posture.
-        limits: lower and upper (joints,) rad, m of the station; those of the URDF apply, too, and
-            the outermost part of each joint's range is left out.
+        limits: lower and upper (joints,) rad, m of the station; those of the URDF apply, too,
+            without the outermost part of each joint's range.
         span, box: see `LiveSettings`.
         clearance: the shapes that must keep apart in postures and on paths (default: none).
 

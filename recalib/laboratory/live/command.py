@@ -70,8 +70,17 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
 
 @contextmanager
 def _signals_that_stop() -> Iterator[None]:
-    """Let signals that end or suspend the program raise KeyboardInterrupt: it stops the station."""
-    before = {number: signal.signal(number, signal.default_int_handler) for number in STOPPING}
+    """Let the first signal that ends or suspends the program raise KeyboardInterrupt.
+
+    It stops the station. Later signals are ignored, so that they do not interrupt the stop.
+    """
+
+    def interrupt(*_: object) -> None:
+        for number in STOPPING:
+            signal.signal(number, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    before = {number: signal.signal(number, interrupt) for number in STOPPING}
     try:
         yield
     finally:
@@ -105,11 +114,10 @@ def ask_to_move(arm: Arm, move: Move) -> Answer:
     )
     away = 1e3 * np.linalg.norm(move.tool_after - move.tool_before)
     print(f"tool from ({start}) to ({goal}) mm, {away:.0f} mm away: {joints}", file=sys.stderr)
-    print("Move? Enter: yes, s: skip this posture for good, q: end ", file=sys.stderr, end="")
-    sys.stderr.flush()
-    if sys.stdin.isatty():
+    question = "Move? Enter: yes, s: skip this posture for good, q: end "
+    print(question, end="", file=sys.stderr, flush=True)
+    if sys.stdin and sys.stdin.isatty():
         termios.tcflush(sys.stdin, termios.TCIFLUSH)
-    line = sys.stdin.readline()
-    if not line:
+    if not sys.stdin or not (line := sys.stdin.readline()):  # it is None if it was closed
         raise InvalidSetting("an answer", None, "a person at the terminal, or --yes")
     return ANSWERS.get(line.strip().lower(), Answer.END)

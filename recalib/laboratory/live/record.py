@@ -123,7 +123,7 @@ class Record:
         row = [row[names.index(name)] for name in header]
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows([row] if len(self) else [header, row])
-        line = text.getvalue().encode()
+        line = text.getvalue().encode(errors="surrogatepass")  # which `_read` refuses
         return self._read(self._content + line), line
 
     def write(self, observations: Observations, line: bytes) -> None:

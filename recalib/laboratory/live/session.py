@@ -172,7 +172,10 @@ def calibrate_live(
         return Ended(session.run(ask, on_row), len(record))
     except BaseException as error:
         if station is not None:
-            station.stop()
+            try:
+                station.stop()
+            except KeyboardInterrupt:  # as a closed terminal is also an error of reading
+                station.stop()
         if len(record):
             on_progress(
                 f"stopped; {len(record)} rows are in {record.path}; to continue, repeat the command"
@@ -240,14 +243,12 @@ class _Session:
     def _go_to(self, goal: np.ndarray, ask: Callable[[Move], Answer]) -> Answer:
         """Move to a posture if a person agrees, and return the answer."""
         for posture in self.postures.path(self.station.angles(), goal):
-            start = self.station.angles()
-            self.postures.check(start, posture)
-            tool = self.postures.tool
+            start, tool = self.station.angles(), self.postures.tool
             answer = ask(Move(start, posture, tool(start), tool(posture)))
             check_kind("the answer to a move", answer, Answer)
             if answer is not Answer.MOVE:
                 return answer
-            # a person may have moved the arm while the question was open
+            # also because a person may have moved the arm while the question was open
             self.postures.check(self.station.angles(), posture)
             self.station.move(posture, self.settings.speed)
         return Answer.MOVE
