@@ -162,11 +162,11 @@ def _with_smooth_errors(found: HandEye) -> HandEye:
 
         r_i = A_i (x + B d_i) + e_i,    cov(d_i, d_j) = s^2 exp(-|f_i - f_j|^2 / (2 SLOWLY^2)) I.
 
-    x are the poses of camera and board, A_i the slopes by them, and e_i the noise, with covariance
-    C_i. d_i are displacements of the two frames along [m] and about [rad / LEVER] their axes, and
-    B maps them to what is in the frames. f_i is the flange's position over LEVER and its rotation
-    matrix over sqrt(2), so that small turns count in rad. s maximises the restricted likelihood.
-    The estimate P sum A_i' C_i^-1 r_i has the covariance of these d_i in addition to P.
+    x are the poses of camera and board, A_i the slopes by them, and e_i the noise. d_i are
+    displacements of both frames, with turns times LEVER, and B maps them to what is in the frames.
+    f_i is the flange's position over LEVER and its rotation matrix over sqrt(2), so that small
+    turns count in rad. s and a factor of the noise's covariances C_i maximise the restricted
+    likelihood. P sum A_i' C_i^-1 A_i B d_i, with P the covariance without d_i, is then added.
     """
     residuals, slopes, _ = LinearHandEye(found).whitened()
     flange, rows = found.sights.flange, slopes.reshape(residuals.size, -1)
