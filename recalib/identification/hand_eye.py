@@ -30,7 +30,8 @@ FOLDS = 30
 # How slowly smooth errors vary. Simulated UR5, UR10 and Panda determine it: the likelihood cannot,
 # since camera and board absorb what is common to all poses, which is most of such errors.
 SLOWLY = 4.0
-SIZES = np.geomspace(FINEST, COARSEST, 71)  # m
+SIZES = np.concatenate([[0.0], np.geomspace(FINEST, COARSEST, 71)])  # m
+AKAIKE = 2.0  # by how much -2 log(likelihood) must fall for smooth errors to count
 NEGLIGIBLE = 1e-4  # of the largest eigenvalue
 EQUAL = 0.05  # rad: angles that may be the same
 TURNS = 24  # starting angles about the only axis
@@ -166,7 +167,8 @@ def _with_smooth_errors(found: HandEye) -> HandEye:
     displacements of both frames, with turns times LEVER, and B maps them to what is in the frames.
     f_i is the flange's position over LEVER and its rotation matrix over sqrt(2), so that small
     turns count in rad. s and a factor of the noise's covariances C_i maximise the restricted
-    likelihood. P sum A_i' C_i^-1 A_i B d_i, with P the covariance without d_i, is then added.
+    likelihood, if Akaike's criterion prefers s > 0. P sum A_i' C_i^-1 A_i B d_i, with P the
+    covariance without d_i, is the error that is added.
     """
     residuals, slopes, _ = LinearHandEye(found).whitened()
     flange, rows = found.sights.flange, slopes.reshape(residuals.size, -1)
@@ -188,7 +190,8 @@ def _with_smooth_errors(found: HandEye) -> HandEye:
     along, freedom = directions.T @ rest, residuals.size - fitted.shape[1]
     growth = 1 + np.outer(SIZES**2, sizes**2)
     noise = np.sum(along**2 / growth, axis=1) + np.sum((rest - directions @ along) ** 2)
-    best = np.argmin(np.log(growth).sum(axis=1) + freedom * np.log(noise))
+    unlikelihood = np.log(growth).sum(axis=1) + freedom * np.log(noise)
+    best = np.argmin(unlikelihood + AKAIKE * (SIZES > 0))
     shifts = found.covariance[:ENDS] @ (rows.T @ moved)
     covariance = found.covariance.copy()
     covariance[:ENDS, :ENDS] += SIZES[best] ** 2 * noise[best] / freedom * shifts @ shifts.T

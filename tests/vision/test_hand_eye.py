@@ -90,10 +90,7 @@ def calibrate(*options: str, camera: str = "fixed", way: str = "ros") -> int:
 @pytest.mark.parametrize("four_axes", [False, True])
 @pytest.mark.parametrize("in_hand", [False, True])
 def test_places_and_their_deviations_are_right(in_hand, four_axes):
-    """Normalised by what is stated, errors are those of a normal distribution, or smaller.
-
-    Some tables of independent errors look like smooth ones by chance.
-    """
+    """Normalised by what is stated, errors are those of a normal distribution."""
     distances = []
     for seed in range(8):
         cell = HandEyeCell(seed, in_hand, four_axes=four_axes)
@@ -101,7 +98,7 @@ def test_places_and_their_deviations_are_right(in_hand, four_axes):
         step = displacements(found.camera[None], cell.camera[None])[0]
         distances.append(step @ np.linalg.solve(found.covariance[:6, :6], step))
         assert found.accuracy == pytest.approx([cell.position, cell.rotation], rel=0.6)
-    assert 6 * 0.3 < np.mean(distances) < 6 * 1.8
+    assert 6 * 0.4 < np.mean(distances) < 6 * 1.8
 
 
 @pytest.mark.parametrize("in_hand", [False, True])
@@ -511,7 +508,7 @@ def test_pictures(in_hand, tmp_path, monkeypatch, capsys):
     assert main(["next", "out", "--poses", *options]) == DONE
     before, after = map(float, re.findall(r"([\d.]+) mm", capsys.readouterr().out))
     assert after < 0.9 * before
-    assert before < 1.5 * length
+    assert before == pytest.approx(length, rel=0.5)
     proposed = read_poses("next.csv").poses
     assert len(proposed) == 6
     for pose in proposed:
