@@ -217,7 +217,10 @@ def next_poses(options: Options) -> int:
     write_new(options.out, table_text(pose_rows(poses)), ".csv")
     before, after = 1e3 * deviations[[0, -1]]
     print(f"{counted(len(poses), 'flange pose')} in {options.out}, the most informative first.")
-    print(f"They would reduce the camera's uncertainty from {before:.3g} mm to {after:.3g} mm.")
+    print(
+        f"They would reduce the camera's uncertainty from {before:.3g} mm to {after:.3g} mm,"
+        " apart from errors that vary smoothly with the pose."
+    )
     return DONE
 
 

@@ -17,6 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.errors import InvalidFile, RecalibError
 from recalib.identification.checks.moved import moved_ends
 from recalib.identification.checks.sequence import JUMP, SLIP
@@ -98,6 +99,24 @@ def test_places_and_their_deviations_are_right(in_hand, four_axes):
         distances.append(step @ np.linalg.solve(found.covariance[:6, :6], step))
         assert found.accuracy == pytest.approx([cell.position, cell.rotation], rel=0.6)
     assert 6 * 0.4 < np.mean(distances) < 6 * 1.8
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_deviations_allow_for_errors_that_vary_smoothly_with_the_pose(in_hand):
+    """Joints are off by 0.1 deg, a link by 1 mm: as independent errors, 1 of 20 would be within."""
+    within = 0
+    for seed in range(10):
+        cell = Cell(seed, in_hand)
+        rng, postures = np.random.default_rng(seed), cell.postures(POSES)
+        shifts = np.radians(0.1) * rng.standard_normal(len(cell.arm.joints))
+        damages = [EncoderShift(*each) for each in zip(cell.arm.joints, shifts, strict=True)]
+        real = apply(cell.arm, [*damages, LinkShortening("panda_link3", 1e-3)]).forward(postures)
+        between = np.linalg.inv(real) if in_hand else real
+        boards = np.linalg.inv(cell.eye) @ between @ cell.sheet
+        boards = boards @ turned(*1e-4 * rng.standard_normal((2, POSES, 3)))
+        found = calibrate_hand_eye(Sights(cell.arm.forward(postures), boards, in_hand))
+        within += off(found.camera, cell.eye)[0] < 3 * found.deviations(0)[0]
+    assert within >= 9
 
 
 @pytest.mark.parametrize("in_hand", [False, True])

@@ -42,7 +42,7 @@ def moved_ends(found: HandEye) -> tuple[list[Fault], HandEye]:
         if motion[0] < SHARE:
             break
         without = calibrate_hand_eye(_undone(found, motion))
-        residuals, _, _ = _whitened(without)
+        residuals, _, _ = LinearHandEye(without).whitened()
         correlation = max(0.0, np.sum(residuals[1:] * residuals[:-1]) / np.sum(residuals**2))
         refitted = replace(without, sights=found.sights)
         share, (row, _), step, end = motion = _strongest(refitted, correlation)
@@ -56,25 +56,13 @@ def moved_ends(found: HandEye) -> tuple[list[Fault], HandEye]:
     return faults, found
 
 
-def _whitened(found: HandEye) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Weighted residuals (n, 6), and their slopes by parameters and by the flange, over noise."""
-    linear = LinearHandEye(found)
-    # of exact poses, rounding leaves no precision positive definite; covariances are
-    covariances = linear.covariances(found.accuracy, found.noise)
-    roots = np.linalg.inv(np.linalg.cholesky(covariances))
-    roots = roots * np.sqrt(found.weights)[:, None, None]
-    residuals = np.einsum("nij,nj->ni", roots, linear.residuals)
-    by_flange = roots @ linear.by_flange * np.repeat(found.accuracy, 3)
-    return residuals, roots @ linear.slopes, by_flange
-
-
 def _strongest(found: HandEye, correlation: float | None = None) -> Motion:
     """The most significant motion of camera or board.
 
     Args:
         correlation: of each row with the next; None to search without errors of the flange.
     """
-    residuals, slopes, by_flange = _whitened(found)
+    residuals, slopes, by_flange = LinearHandEye(found).whitened()
     corners, rows = found.sights.corners, np.arange(len(residuals))
     known = corners.information.sum(axis=0) + np.diag(corners.deviations**-2.0)
     optics = slopes[..., TARGET.stop :] @ np.linalg.inv(np.linalg.cholesky(known)).T

@@ -184,6 +184,16 @@ class LinearHandEye:
         """Inverses (n, 6, 6) of C."""
         return np.linalg.inv(self.covariances(self.found.accuracy, self.found.noise))
 
+    def whitened(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Weighted residuals (n, 6), and their slopes by parameters and flange, over the noise."""
+        # of exact poses, rounding leaves no precision positive definite; covariances are
+        covariances = self.covariances(self.found.accuracy, self.found.noise)
+        roots = np.linalg.inv(np.linalg.cholesky(covariances))
+        roots = roots * np.sqrt(self.found.weights)[:, None, None]
+        residuals = np.einsum("nij,nj->ni", roots, self.residuals)
+        by_flange = roots @ self.by_flange * np.repeat(self.found.accuracy, 3)
+        return residuals, roots @ self.slopes, by_flange
+
     def normal_equations(
         self, precisions: np.ndarray, weights: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:

@@ -40,6 +40,8 @@ def propose_poses(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Poses (n, 4, 4) of the flange, and the camera's deviation [m] (n + 1,) before and after each.
 
+    These deviations are those of independent errors.
+
     Args:
         folder: of a hand-eye calibration from pictures.
         box: of the flange's positions in the base (default: the measured box and a little beyond).
