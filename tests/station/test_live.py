@@ -266,6 +266,9 @@ STOPPED = {  # by the message, what a station does
     "is invalid: 000.png is in an earlier row; expected: a new file for each picture": {
         "measured": lambda station, cells: cells | {"picture": "000.png"}
     },
+    "is invalid: it has the targets 1, 2; expected: a single one": {
+        "measured": lambda station, cells: cells | {"target": str(measured(station))}
+    },
     "is invalid: it has more than one column 'elbow_joint'": {
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },

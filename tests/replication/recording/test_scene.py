@@ -61,6 +61,7 @@ def test_errors_are_those_of_the_history(columns, files, seed):
         assert iterations == [-VISITS, *history["iteration"], ITERATIONS + VISITS]
         measured = history[quantity].iloc[[0, *range(len(history)), -1]]
         assert np.ravel(values) == close(measured.to_numpy(), rel=1e-9)
+        assert columns(f"/errors/{quantity}/improved", "SeriesLines:colors")[0] is None
 
 
 def test_both_arms_move_as_their_kinematics_say(columns, robot, resolved):
