@@ -104,10 +104,7 @@ def test_a_joint_that_slides_does_not_miss_its_place_by_an_angle(tmp_path, comma
 def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, commands):
     quiet = Plant(controller, damaged)
     noisy = Plant(
-        controller,
-        damaged,
-        Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3)),
-        generators(7, 8),
+        controller, damaged, Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3)), generators(7, 8)
     )
     assert np.array_equal(noisy.achieve(commands)[0], quiet.achieve(commands)[0])
     difference = noisy.execute(commands).achieved - quiet.execute(commands).achieved

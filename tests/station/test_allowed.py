@@ -113,6 +113,8 @@ def test_shapes_that_no_file_has_are_named(tmp_path):
     assert missing == ["gone.stl"] and shapes.ngeoms == 1
     (shape,) = shapes.geometryObjects
     assert (shape.name, shape.parentJoint) == ("tip", 1)
+    pairs = Clearance(arm, np.zeros(1), shapes, 0.0, False, 0.0).pairs
+    assert pairs == [(TOOL, FLOOR)], "the first links may be near the floor, the tool may not"
 
 
 def test_postures_are_within_the_limits_of_both():
@@ -142,8 +144,8 @@ def test_where_an_arm_was_left_outside_the_span_it_stays(joint, by):
     away = np.eye(6)[joint]
     found = f"its tool at .* mm and {station.arm.joints[joint]} at .*--span of the first.*by hand"
     with pytest.raises(StationFailed, match=found):
-        postures.path(station.stands + by * away, postures.joints[0])
-    assert postures.path(station.stands + np.sign(by) * 0.505 * away, postures.joints[0])
+        postures.check(station.stands + by * away, postures.joints[0])
+    postures.check(station.stands + np.sign(by) * 0.505 * away, postures.joints[0])
 
 
 def test_an_arm_goes_by_way_of_home_if_something_is_in_the_straight_way():

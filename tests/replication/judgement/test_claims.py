@@ -81,12 +81,11 @@ def judged(study, tmp_path_factory):
         write(folder / "workflow/campaign/untrained.csv", table)
         grid = pd.DataFrame({error: [8.3, 4.7] for error in ERRORS}).assign(distance=[0.0, 1.0])
         write(folder / f"results/assignments/{study.robot}.parquet", grid)
-        last = study.experiments.iterations
+        last, off = study.experiments.iterations, [0.0, 1e-4 if paper else 1e-2]
         intact = {"iterations": last, "seed": 0, "iteration": [0, last]}
-        intact |= dict.fromkeys(ERRORS, [0.0, 1e-4 if paper else 1e-2])
+        intact = pd.DataFrame(intact | dict.fromkeys(ERRORS, off))
         for learner in ("improved", "ritter"):
-            path = folder / f"results/runs/{study.robot}/intact/{learner}.parquet"
-            write(path, pd.DataFrame(intact))
+            write(folder / f"results/runs/{study.robot}/intact/{learner}.parquet", intact)
         findings = judge(Evidence(study, folder))
         write(folder / "claims.json", written(findings))
         return read_findings(Path(folder / "claims.json"))
