@@ -133,12 +133,12 @@ def reach_all(calibration: Calibration, learned: np.ndarray, goals: Goals) -> np
 
 def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> list[np.ndarray]:
     """For each start, learned postures (n, joints) near the goals; the nearest come first."""
-    dimensions = goals.poses.ndim
-    found = np.empty((STARTS, len(goals), learned.shape[1]))
+    count, dimensions = min(STARTS, len(learned)), goals.poses.ndim
+    found = np.empty((count, len(goals), learned.shape[1]))
     for target, rows in by_sight(goals.targets, len(goals)):
         poses = poses_at(calibration, learned, None if goals.targets is None else target)
         wanted = _features(goals.poses[rows], dimensions)
-        nearest = KDTree(_features(poses, dimensions)).query(wanted, k=range(1, 1 + STARTS))[1]
+        nearest = KDTree(_features(poses, dimensions)).query(wanted, k=range(1, 1 + count))[1]
         found[:, rows] = learned[nearest.T]
     return list(found)
 
