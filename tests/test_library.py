@@ -200,6 +200,13 @@ def wrong_calls() -> Iterator[tuple[Callable[..., object], tuple]]:
     yield from each(widths, lambda it: recalib.Schedule(1.0, {"pose": it}, 0.5, 0.1))
     yield from each([1.1, "a"], lambda it: recalib.Outliers(it, 0.05))
     yield from each([-0.05, None], lambda it: recalib.Outliers(0.1, it))
+    grids, row = [[0.5], [0, 3], [-1, 2], [], np.eye(2)], recalib.Row("a")
+    yield from each(grids, lambda it: recalib.train(plant, learner, poses, poses, it))
+    yield from each([[], [row, row], [recalib.Row("a", alpha=np.nan)]], recalib.arm_of_table)
+    yield from each(["3 deg", None], lambda it: recalib.EncoderShift("elbow_joint", it))
+    yield from each([joints[:, :5], joints[0]], lambda it: recalib.information_gains(found, it))
+    yield from each([np.zeros((3, 1, 6)), np.zeros((1, 1, 6))], moved.execute)
+    yield from each([(3, -3), 3], lambda it: load(home, *ranges, limits={"elbow_joint": it}))
     shapes = [np.zeros(shape) for shape in ((2, 6), (1, 2, 5), (1, 2, 7), (6,), (2, 1, 2, 6))]
     yield from each(shapes, plant.execute, plant.achieve, chain.forward)
     yield from each([np.zeros(5), np.zeros(7)], lambda it: recalib.Chain.of(robot.arm, it))
@@ -228,38 +235,22 @@ def wrong_calls() -> Iterator[tuple[Callable[..., object], tuple]]:
         lambda: recalib.PolynomialLearner(1, runs=0.5),
         lambda: recalib.PolynomialLearner(3),
         lambda: recalib.HybridLearner.identify(robot, arrays),
-        lambda: recalib.EncoderShift("elbow_joint", "3 deg"),
-        lambda: recalib.EncoderShift("elbow_joint", None),
-        lambda: recalib.information_gains(found, joints[:, :5]),
-        lambda: recalib.information_gains(found, joints[0]),
         lambda: recalib.train(learner, plant, poses, poses, [1]),
         lambda: recalib.apply(robot, recalib.Noise()),
         lambda: recalib.Plant(controller, []),
         lambda: recalib.Chain.side_by_side([]),
         lambda: recalib.Plant(controller, robot.arm, recalib.Disturbances()),
-        lambda: moved.execute(np.zeros((3, 1, 6))),
-        lambda: moved.execute(np.zeros((1, 1, 6))),
         lambda: three.execute(np.zeros((2, 1, 6))),
         lambda: recalib.position_error(np.ones((3, 4, 4)), np.ones((2, 4, 4))),
-        lambda: load(home, *ranges, limits={"elbow_joint": (3, -3)}),
-        lambda: load(home, *ranges, limits={"elbow_joint": 3}),
         lambda: load(home, *ranges, beyond="10 cm"),
         lambda: recalib.ProgramStation(["a\0b"]),
-        lambda: recalib.train(plant, learner, poses, poses, [0.5]),
-        lambda: recalib.train(plant, learner, poses, poses, [0, 3]),
-        lambda: recalib.train(plant, learner, poses, poses, [-1, 2]),
-        lambda: recalib.train(plant, learner, poses, poses, []),
-        lambda: recalib.train(plant, learner, poses, poses, np.eye(2)),
         lambda: load(home, *ranges, name=np.ones(2)),
         lambda: controller.inverse(np.eye(4)),
         lambda: robot.workspace.to_poses(np.zeros(5)),
         lambda: recalib.position_error(np.zeros(3), np.zeros(3)),
         lambda: recalib.Workspace(np.eye(4), -np.ones(6)),
         lambda: recalib.Workspace(np.eye(4), np.full(6, 0.1), "quaternion"),
-        lambda: recalib.arm_of_table([]),
         lambda: recalib.arm_of_table([recalib.Row("a")], "craig"),
-        lambda: recalib.arm_of_table([recalib.Row("a"), recalib.Row("a")]),
-        lambda: recalib.arm_of_table([recalib.Row("a", alpha=np.nan)]),
         lambda: recalib.Rules("no", True, True, True),
         lambda: recalib.RadialLearner(rules, schedule, -1.0),
         lambda: recalib.Observations(joints, joints[:2, :3]),

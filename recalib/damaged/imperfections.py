@@ -76,10 +76,9 @@ class Imperfection:
             if isinstance(note, Bounded)
         }
 
-    @classmethod
-    def amounts(cls) -> list[str]:
+    def amounts(self) -> list[str]:
         """The fields that hold its size, in contrast to its direction."""
-        return [name for name, bounds in cls.bounds().items() if not bounds.direction]
+        return [name for name, bounds in self.bounds().items() if not bounds.direction]
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> "CoreSchema":

@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib import InvalidSetting, LinkBend, LinkTwist, UnknownName, apply
 from recalib.nominal import link_end
+from tests.arms import urdf
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_3_link"]  # across two axes; along x; the tool
 
@@ -48,6 +49,14 @@ def test_a_link_bends_towards_an_axis_of_its_frame_or_any_angle_from_there(robot
         assert angle(moved, expected) == pytest.approx(0, abs=1e-6)
     opposite = [ends(robot, LinkBend(link, *bend))[1] for bend in ((0.1, np.pi), (-0.1, 0.0))]
     np.testing.assert_allclose(*opposite, atol=1e-12)
+
+
+def test_rounding_does_not_decide_towards_which_axis_a_link_bends(load):
+    joint, bent = ("turn", "revolute", "0 0 1", "0 0 0.3"), []
+    for end in ("0.5 0 0", "0.5 1e-12 0"):
+        arm = load(urdf(joint, ("lift", "revolute", "0 1 0", end)))
+        bent.append(apply(arm, [LinkBend("link_1", 0.1)]).arm.forward(np.zeros((1, 2))))
+    np.testing.assert_allclose(*bent, atol=1e-9)
 
 
 @pytest.mark.parametrize("link", LINKS)

@@ -40,14 +40,10 @@ def test_the_whole_robot_moved_moves_every_pose(robot):
     assert np.allclose(moved - turned, [1, 0, 0])
 
 
-@pytest.mark.parametrize(
-    ("link", "whole"),
-    [
-        ("forearm_link", 0.5723),
-        ("upper_arm_link", np.hypot(0.1719, 0.612)),
-        ("wrist_3_link", 0.0922),
-    ],
-)
+WHOLE = {"forearm_link": 0.5723, "upper_arm_link": np.hypot(0.1719, 0.612), "wrist_3_link": 0.0922}
+
+
+@pytest.mark.parametrize(("link", "whole"), WHOLE.items())
 def test_a_link_loses_its_length_and_nothing_else_changes(robot, link, whole):
     damaged = apply(robot, [LinkShortening(link, 0.04)]).forward(ANGLES)
     nominal = robot.arm.forward(ANGLES)

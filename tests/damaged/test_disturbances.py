@@ -13,6 +13,7 @@ from recalib import (
     Outliers,
     Plant,
     Repeatability,
+    Sag,
     apply,
     load_robot,
     orientation_error,
@@ -103,10 +104,7 @@ def test_a_joint_that_slides_does_not_miss_its_place_by_an_angle(tmp_path, comma
 def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, commands):
     quiet = Plant(controller, damaged)
     noisy = Plant(
-        controller,
-        damaged,
-        Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3)),
-        generators(7, 8),
+        controller, damaged, Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3)), generators(7, 8)
     )
     assert np.array_equal(noisy.achieve(commands)[0], quiet.achieve(commands)[0])
     difference = noisy.execute(commands).achieved - quiet.execute(commands).achieved
@@ -129,12 +127,13 @@ def few() -> np.ndarray:
 
 
 def test_a_robot_for_each_run_does_what_it_does_alone(controller, damaged, few):
-    moved = apply(controller.robot, [BaseShift(translate=(0.01, 0.0, 0.02))])
-    together = Plant(controller, [damaged, moved]).execute(few)
-    for run, arm in enumerate((damaged, moved)):
-        alone = Plant(controller, arm).execute(few[[run]])
-        assert np.array_equal(together.achieved[[run]], alone.achieved)
-        assert np.array_equal(together.executed[[run]], alone.executed)
+    for damage in BaseShift(translate=(0.01, 0.0, 0.02)), Sag("elbow_joint", 1e-3):
+        arms = damaged, apply(controller.robot, [damage])
+        together = Plant(controller, arms).execute(few)
+        for run, arm in enumerate(arms):
+            alone = Plant(controller, arm).execute(few[[run]])
+            np.testing.assert_allclose(together.achieved[[run]], alone.achieved, atol=1e-12)
+            assert np.array_equal(together.executed[[run]], alone.executed)
 
 
 def test_moves_are_counted_with_those_that_were_refused_and_measuring_is_not(

@@ -80,10 +80,12 @@ def test_a_lag_is_named_in_few_rows_and_no_jump_where_there_are_too_few(ur10):
 
 
 @few_folds()
-def test_what_a_lag_explains_is_no_further_fault(ur10):
+def test_what_a_lag_explains_is_no_further_fault_and_what_it_hides_is_one(ur10):
     """A part of this one looks like a slip of the target, if the arm that it bends is believed."""
-    found = Session(ur10, 4, LAG, 0.25, on_a_path=True).find_faults()
-    assert [fault.kind for fault in found] == [LAG]
+    session = Session(ur10, 4, LAG, 0.25, on_a_path=True)
+    session.observations.measured[60:, 0, 3] += 0.01
+    lag, jump = session.find_faults()
+    assert (lag.kind, jump.kind) == (LAG, JUMP) and jump.size == pytest.approx(0.01, rel=0.1)
 
 
 def test_what_several_targets_of_a_posture_share_is_no_fault(ur10):

@@ -38,14 +38,8 @@ class Cell:
 def test_slopes_agree_with_finite_differences(ur10):
     rng = np.random.default_rng(1)
     bases, targets = ([anywhere(rng, 0.5) for _ in range(2)] for _ in range(2))
-    frames = Frames(
-        bases[0],
-        np.array(targets),
-        base_unknown=True,
-        targets_unknown=True,
-        further=np.array(bases[1:]),
-        sights=SIGHTS,
-    )
+    unknown = {"base_unknown": True, "targets_unknown": True, "sights": SIGHTS}
+    frames = Frames(bases[0], np.array(targets), further=np.array(bases[1:]), **unknown)
     model = ErrorModel(ur10, OFFSETS, frames)
     assert np.count_nonzero(model.free) == 4 * 6
     parameters = 0.1 * rng.standard_normal(len(model.deviations))

@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from recalib import Observations, initial_frames
 from recalib.identification import (
@@ -20,8 +21,8 @@ from recalib.identification import (
 )
 from recalib.identification import validation as module
 from recalib.identification.checks.diagnostics import Untrustworthy
-from recalib.identification.checks.postures import find_postures
-from recalib.identification.model import Frames
+from recalib.identification.checks.postures import find_postures, outside_of
+from recalib.identification.model import Frames, Optics
 from tests.identification.honesty import MIDDLE, distances
 from tests.identification.real import Real
 
@@ -55,6 +56,15 @@ def test_what_is_said_holds_for_fresh_rows_and_one_grossly_off_does_not_count(re
         assert all(np.argmax(kinds[kind].errors[:, 0]) == 7 for kind in KINDS[1:])
     assert np.flatnonzero(~validation.counted) == [7]
     assert validation.full[GEOMETRIC].estimate.weights[7] < 0.01
+
+
+@pytest.mark.parametrize(("gain", "chosen"), [(6e-4, NOTHING), (1e-3, GEOMETRIC)])
+def test_what_is_richer_must_be_better_by_two_standard_errors(gain, chosen, validation):
+    folds = validation.held_out[BLOCKWISE][NOTHING].folds
+    better = np.outer(0.01 - gain + 2.5e-3 * (-1.0) ** np.arange(ROWS), [0.6, 0.8, 0.0])
+    errors = {kind: HeldOut(better, folds) for kind in KINDS}
+    errors[NOTHING] = HeldOut(np.tile([0.006, 0.008, 0.0], (ROWS, 1)), folds)
+    assert replace(validation, held_out={BLOCKWISE: errors}).chosen == chosen
 
 
 def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
@@ -114,9 +124,19 @@ def test_full_turns_alone_are_moves_and_paths_of_small_steps_many_postures():
     assert find_postures(joints[:, :2], slides[:2], 1e-4).numbers.tolist() == [0, 0]
     found = find_postures(joints, slides, 1e-4)
     assert found.numbers.tolist() == [0, 1] and found.still.tolist() == [False, True, False]
+    few = np.outer([0, 4e-4], [1, 1])  # rad turn less than the noise, m slide more
+    assert find_postures(few, slides[1:], 1e-4).still.tolist() == [True, False]
     path = np.linspace(0, 1, 1000)[:, None] * np.ones(6)  # half the way to the next is alike
     numbers = postures_of(path).numbers
     assert 100 < numbers.max() < 1000 and (np.diff(numbers) >= 0).all()
+
+
+def test_places_are_outside_of_a_range_along_its_own_axes_from_a_twentieth_on():
+    turn = Rotation.from_euler("xyz", [0.3, -0.8, 1.2]).as_matrix()
+    known = np.tile(np.eye(4), (8, 1, 1))
+    known[:, :3, 3] = [*np.ndindex(2, 2, 2)] * np.array([1.0, 0.5, 0.25]) @ turn.T
+    places = np.array([[1.04, 0.2, 0.1], [1.1, 0.2, 0.1], [1.3, -0.4, 0.1]]) @ turn.T
+    assert outside_of(known, places)[:, 0] == pytest.approx([0, 0.1, 0.5])
 
 
 def test_a_target_that_was_seen_in_one_region_alone_is_learned_in_all_parts():
@@ -137,9 +157,9 @@ def test_a_target_that_was_seen_in_one_region_alone_is_learned_in_all_parts():
 @pytest.mark.parametrize("count", [16, 30])
 def test_a_third_of_the_rows_may_be_grossly_wrong(ur10, count):
     real = Real(ur10, count)
-    observations = real.observe(count)
+    observations = real.observe(count, positions=count > 16)
     bad = np.arange(count // 3) * 3
-    observations.measured[bad, :3, 3] += 0.05 * np.array([0.6, -0.8, 0.0])
+    observations.positions[bad] += 0.05 * np.array([0.6, -0.8, 0.0])
     found = validate(ur10, observations, initial_frames(ur10, observations))
     assert np.array_equal(np.flatnonzero(~found.counted), bad)
     assert real.error(found.calibration.predict) < 1e-3
@@ -160,8 +180,9 @@ def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(ur10):
     observations = real.observe(30)
     shifts = real.random.standard_normal((30, 3))
     shifts *= 0.05 / np.linalg.norm(shifts, axis=1, keepdims=True)
-    shifts[11] *= 2  # too little for a lower weight
     observations.measured[:, :3, 3] += shifts
+    turn = Rotation.from_euler("x", 0.5, True).as_matrix()
+    observations.measured[11, :3, :3] = turn @ observations.measured[11, :3, :3]
     with pytest.raises(
         Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows 12, ([0-9]+, ){3}"
     ):
@@ -174,6 +195,10 @@ def test_a_turn_of_one_rad_counts_as_half_a_metre_and_the_worst_part_decides():
     assert held.errors == pytest.approx(np.array([[0.005, 0.1], [0, 0.02]]))
     assert held.losses == pytest.approx([0.055, 0.01])
     assert HeldOut(residuals[:, :3], held.folds).losses == pytest.approx([0.005, 0])
+    each, seen = np.tile(np.eye(6), (2, 1, 1)), [500.0] * 3 + [0.0] * 3  # px for each m and rad
+    optics = Optics(each, each[..., :0], each[:, :0, :0], each[:, 0, :0], each * seen)
+    by_camera = HeldOut(residuals, held.folds, optics, 0.012)
+    assert by_camera.errors[:, 0] == pytest.approx([0.013, 0.012])
     errors, folds = np.tile(np.arange(100) + 1.0, 2), np.repeat([0, 1], 100)
     errors[folds == 1] *= 3
     held = HeldOut(errors[:, None] * [0.6, 0.8, 0.0], folds)

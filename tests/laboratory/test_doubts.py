@@ -38,6 +38,8 @@ def result(
     )
     geometry = SimpleNamespace(model=MODEL, estimate=estimate)
     validation = SimpleNamespace(chosen=chosen, mean_error=lambda way, kind: errors[way, kind])
+    nothing = dict.fromkeys(("mistake", "mistaken", "wrong_gain", "exchanged"))
+    nothing |= {"scales": {}, "misplaced": [], "unseen": 0, "directions": []}
     return SimpleNamespace(
         validation=validation,
         faults=faults,
@@ -45,14 +47,7 @@ def result(
         parameters=parameters_of(MODEL, estimate),
         frames=Frames(),
         geometry=geometry,
-        scales={},
-        mistake=None,
-        mistaken=None,
-        wrong_gain=None,
-        exchanged=None,
-        misplaced=[],
-        unseen=0,
-        directions=[],
+        **nothing,
     )
 
 

@@ -110,15 +110,28 @@ def reach(tests: Iterable[str], folder: Path, run: Callable[..., None]) -> dict[
 
 
 def function_around(module: Path, line: int) -> range:
-    """Lines of the body of the innermost function; of the module, where there is none."""
+    """Lines of the body of the innermost function; of the module, where there is none.
+
+    Only the first test that calls a cached function runs its lines: they count as the module's.
+    """
     tree = ast.parse(module.read_bytes())
     kinds = ast.FunctionDef, ast.AsyncFunctionDef
     functions = [node for node in ast.walk(tree) if isinstance(node, kinds)]
-    around = [node for node in functions if node.body[0].lineno <= line <= node.end_lineno]
+    around = [
+        node
+        for node in functions
+        if node.body[0].lineno <= line <= node.end_lineno and not _is_cached(node)
+    ]
     if not around:
         return range(1, len(module.read_text("utf-8").splitlines()) + 1)
     innermost = max(around, key=lambda node: node.lineno)
     return range(innermost.body[0].lineno, innermost.end_lineno + 1)
+
+
+def _is_cached(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    return any(
+        ast.unparse(name).startswith(("cache", "lru_cache")) for name in function.decorator_list
+    )
 
 
 def nearest(module: Path, line: int, reached: Mapping[str, Reach]) -> list[str]:

@@ -46,9 +46,14 @@ PARTS = {
     ),
     "identification": Part(
         ("recalib/identification", "recalib/numerics"),
-        ("tests/identification", "tests/test_regression.py", "tests/vision/test_hand_eye.py"),
+        (
+            *("tests/identification", "tests/test_regression.py"),
+            *(f"tests/vision/test_{name}.py" for name in ("hand_eye", "several_cameras")),
+        ),
     ),
-    "moving": Part(MOVING, ("tests/station", "tests/laboratory")),
+    "moving": Part(
+        MOVING, ("tests/station", "tests/laboratory", "tests/vision/test_live_by_pixels.py")
+    ),
     "laboratory": Part(
         ("recalib/laboratory",), ("tests/laboratory", "tests/vision", "tests/station"), MOVING
     ),

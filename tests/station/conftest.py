@@ -49,11 +49,12 @@ class LiveSession(NamedTuple):
 def session(tmp_path_factory) -> LiveSession:
     """Until the predicted error is 0.3 mm, and a few rows more."""
     folder, station = tmp_path_factory.mktemp("session"), Simulated("UR5", 1, FINE)
+    files = folder / "table.csv", folder / "live.rrd"
     urdf, lines, proposed, shown = find_urdf("ur5_robot.urdf"), [], [], []
     with pytest.MonkeyPatch.context() as patch, rr.RecordingStream("live") as rec:
         for name, seconds in WAITS.items():
             patch.setattr(f"recalib.station.guarded.{name}", seconds)
-        rec.save(folder / "live.rrd")
+        rec.save(files[1])
         view = LiveView(station.arm, urdf, rec)
 
         def ask(move: Move) -> Answer:
@@ -64,18 +65,10 @@ def session(tmp_path_factory) -> LiveSession:
             shown[:] = rows, running
             view.show(rows, running)
 
-        end = calibrate_live(
-            lambda: station,
-            station.arm,
-            folder / "table.csv",
-            LiveSettings(3e-4, speed=0.37),
-            ask,
-            None,
-            lines.append,
-            show,
-            shapes=load_shapes(station.arm, urdf)[0],
-        )
-    files = folder / "table.csv", folder / "live.rrd"
+        shapes, _ = load_shapes(station.arm, urdf)
+        watch = {"on_progress": lines.append, "on_row": show, "shapes": shapes}
+        settings = LiveSettings(3e-4, speed=0.37)
+        end = calibrate_live(lambda: station, station.arm, files[0], settings, ask, **watch)
     return LiveSession(station, end, lines, proposed, *shown, *files)
 
 

@@ -125,6 +125,8 @@ def test_shapes_that_no_file_has_are_named(tmp_path):
     assert missing == ["gone.stl"] and shapes.ngeoms == 1
     (shape,) = shapes.geometryObjects
     assert (shape.name, shape.parentJoint) == ("tip", 1)
+    pairs = Clearance(arm, np.zeros(1), shapes, 0.0, False, 0.0).pairs
+    assert pairs == [(TOOL, FLOOR)], "the first links may be near the floor, the tool may not"
 
 
 def test_postures_are_within_the_limits_of_both():
@@ -154,8 +156,8 @@ def test_where_an_arm_was_left_outside_the_span_it_stays(joint, by):
     away = np.eye(6)[joint]
     found = f"its tool at .* mm and {station.arm.joints[joint]} at .*--span of the first.*by hand"
     with pytest.raises(StationFailed, match=found):
-        postures.path(station.stands + by * away, postures.joints[0])
-    assert postures.path(station.stands + np.sign(by) * 0.505 * away, postures.joints[0])
+        postures.check(station.stands + by * away, postures.joints[0])
+    postures.check(station.stands + np.sign(by) * 0.505 * away, postures.joints[0])
 
 
 @pytest.mark.parametrize("above", [0.008, 0.012])
@@ -196,7 +198,7 @@ def test_a_joint_that_slides_moves_by_half_a_metre_for_each_rad(by, load, monkey
     x, y, z = 1e3 * arm.forward(away[None])[0, :3, 3]
     found = rf"at \({x:.0f}, {y:.0f}, {z:.0f}\) mm and quill at {300 + 1e3 * by:.1f} mm; expected: "
     with pytest.raises(StationFailed, match=rf"{found}200.0 to 400.0 mm, within --span"):
-        postures.path(away, home)
+        postures.check(away, home)
     monkeypatch.setattr("sys.stdin", io.StringIO("\n"))
     ask_to_move(arm, Move(home, away, np.zeros(3), np.ones(3)))
     assert f": quill by {1e3 * by:+.1f} mm\n" in capsys.readouterr().err

@@ -147,6 +147,8 @@ def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(session):
     assert checked(count + 4, count, count + 2, count + 3) is None
     assert checked(count + 3, count, count + 1, count + 2, part=0.1) is None  # 1 mm
     wrong = checked(count + 3, count, count + 1, count + 2)
+    bump[:3, 3] = 8 * FINE[0]  # some four deviations of a prediction
+    assert checked(count + 3, count, count + 1, count + 2) is None
     rows = f"in rows {count + 1} to {count + 3}"
     assert re.match(f"{rows} the target was measured (9|10).* mm from", wrong)
     assert "The instrument or the target may have moved" in wrong
@@ -168,6 +170,7 @@ def test_more_counts_as_less_sure_where_the_last_rows_were_a_surprise(session):
         seen = replace(rows, measured=spoilt)
         surprised.append(fresh.error(seen) / fresh.workspace(seen)[1].mean())
     assert surprised[:2] == pytest.approx([1, 1], abs=0.08) and fresh.error(seen) > 2 * error
+    assert surprised[2] > 1.2, surprised
     assert session.running.error(rows[:9]) == np.inf
 
 
@@ -289,6 +292,9 @@ STOPPED = {  # by the message, what a station does
     "is invalid: it is not CSV in UTF-8": {
         "measured": lambda station, cells: cells | {"target": "\ud800"}
     },
+    "is invalid: it has the targets 1, 2; expected: a single one": {
+        "measured": lambda station, cells: cells | {"target": str(measured(station))}
+    },
     "is invalid: it has more than one column 'elbow_joint'": {
         "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },
@@ -318,6 +324,7 @@ def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(message,
         assert len((tmp_path / "table.csv").read_text().splitlines()) == int(wrong[1])
     assert station.calls.count("stop") == 1
     assert "move" not in station.calls[station.calls.index("stop") :]
+    assert "10 postures" not in message or moved(station) == 10
     rows = (tmp_path / "table.csv").exists()
     assert bool(re.match(r"stopped; \d+ rows are in ", (lines or [""])[-1])) == rows
 

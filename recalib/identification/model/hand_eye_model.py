@@ -111,7 +111,7 @@ class HandEye:
     def at(cls, sights: Sights, camera: np.ndarray, board: np.ndarray) -> "HandEye":
         """A calibration with these poses of camera and board, and all else at its default."""
         optics, nothing = np.zeros(sights.corners.slopes.shape[-1]), np.zeros(2)
-        blank = optics, nothing, nothing, np.zeros((ENDS + len(optics), ENDS + len(optics)))
+        blank = optics, nothing, nothing, np.zeros((0, 0))  # the covariance is not known yet
         return cls(sights, camera, board, *blank, np.ones(len(sights)))
 
     def predict(self, sights: Sights) -> np.ndarray:

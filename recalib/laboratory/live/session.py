@@ -244,11 +244,12 @@ class _Session:
         """Move to a posture if a person agrees, and return the answer."""
         for posture in self.postures.path(self.station.angles(), goal):
             start, tool = self.station.angles(), self.postures.tool
+            self.postures.check(start, posture)
             answer = ask(Move(start, posture, tool(start), tool(posture)))
             check_kind("the answer to a move", answer, Answer)
             if answer is not Answer.MOVE:
                 return answer
-            # also because a person may have moved the arm while the question was open
+            # a person may have moved the arm while the question was open
             self.postures.check(self.station.angles(), posture)
             self.station.move(posture, self.settings.speed)
         return Answer.MOVE

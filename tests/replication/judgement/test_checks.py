@@ -52,13 +52,8 @@ def test_a_summary_has_a_row_for_each_place_learner_and_length(study, tmp_path):
     small, paths = changed(study, experiments=plan | ALONE | {"robots": ("z1",)}), []
     for number, learners in enumerate(places(small).values()):
         rows = [
-            {
-                "iterations": iterations,
-                "seed": seed,
-                "iteration": when,
-                "moves": 2 * when,
-                "refused": seed,
-            }
+            {"iterations": iterations, "seed": seed, "refused": seed}
+            | {"iteration": when, "moves": 2 * when}
             | dict.fromkeys(ERRORS, 1 + number + seed - when / 100)
             for lengths in learners.values()
             for iterations in lengths

@@ -23,6 +23,8 @@ PAPER = {
     "improved_single_map": WORSE,
     "improved_theta_values": WORSE,
     "improved_jacobian_values": WORSE,
+    "ritter_theta_increments": -WORSE,
+    "ritter_jacobian_increments": -WORSE,
     "improved_exponential": WORSE,
     "improved_values": 2 * WORSE,
     "improved_values_drastic": WORSE,
@@ -79,6 +81,11 @@ def judged(study, tmp_path_factory):
         write(folder / "workflow/campaign/untrained.csv", table)
         grid = pd.DataFrame({error: [8.3, 4.7] for error in ERRORS}).assign(distance=[0.0, 1.0])
         write(folder / f"results/assignments/{study.robot}.parquet", grid)
+        last, off = study.experiments.iterations, [0.0, 1e-4 if paper else 1e-2]
+        intact = {"iterations": last, "seed": 0, "iteration": [0, last]}
+        intact = pd.DataFrame(intact | dict.fromkeys(ERRORS, off))
+        for learner in ("improved", "ritter"):
+            write(folder / f"results/runs/{study.robot}/intact/{learner}.parquet", intact)
         findings = judge(Evidence(study, folder))
         write(folder / "claims.json", written(findings))
         return read_findings(Path(folder / "claims.json"))
@@ -89,7 +96,7 @@ def judged(study, tmp_path_factory):
 OF_SETUPS = "ritter-slow large-neighbourhoods no-good-solution separate-maps widths-position"
 OF_SETUPS += " widths-orientation cells-position cells-orientation theta-increments not-drastic"
 OF_SETUPS += " jacobian-increments cooperation schedule figure-1 long rough-search local-units"
-OTHERS = "weak-coupling", "initial-error", "speed-up"  # by tables of the campaign, too
+OTHERS = "weak-coupling", "initial-error", "speed-up", "identity"  # by other tables, too
 
 
 def test_every_claim_says_all_of_itself_and_those_of_setups_are_tried(study):
@@ -122,7 +129,11 @@ def test_a_finding_has_mean_another_setup_heterogeneity_and_luck(judged):
     assert spread.luck_interval[0] < np.sqrt(2) * NOISE < spread.luck_interval[1]
     assert spread.between_interval[0] < np.sqrt(2) * OWN < spread.between_interval[1]
     assert spread.shares[Verdict.SUPPORTED] > 0.99
-    assert finding.estimates[1].system == "Ritter's one map", "beside, another system"
+    for name in ("theta-increments", "jacobian-increments"):
+        other = judged[True][name].estimates[1]
+        assert other.system == "Ritter's one map", "beside, another system"
+        assert other.value == pytest.approx(np.exp(-WORSE), rel=0.05)
+    assert {number.value for number in judged[False]["identity"].estimates} == {0.01}
     finding = judged[True]["speed-up"]
     assert finding.estimates[0].value == pytest.approx(70, rel=0.1)
     assert finding.published == "a factor of 70"

@@ -9,23 +9,10 @@ from replication.judgement import hierarchy, model, strongest, student
 
 # Trials of the BCG vaccine (Colditz et al. 1994, JAMA 271): vaccinated with and without
 # tuberculosis, others with and without. Log risk ratios have known variances.
-BCG = np.array(
-    [
-        [4, 119, 11, 128],
-        [6, 300, 29, 274],
-        [3, 228, 11, 209],
-        [62, 13536, 248, 12619],
-        [33, 5036, 47, 5761],
-        [180, 1361, 372, 1079],
-        [8, 2537, 10, 619],
-        [505, 87886, 499, 87892],
-        [29, 7470, 45, 7232],
-        [17, 1699, 65, 1600],
-        [186, 50448, 141, 27197],
-        [5, 2493, 3, 2338],
-        [27, 16886, 29, 17825],
-    ]
-)
+BCG = """4 119 11 128; 6 300 29 274; 3 228 11 209; 62 13536 248 12619; 33 5036 47 5761;
+    180 1361 372 1079; 8 2537 10 619; 505 87886 499 87892; 29 7470 45 7232; 17 1699 65 1600;
+    186 50448 141 27197; 5 2493 3 2338; 27 16886 29 17825"""
+BCG = np.array([trial.split() for trial in BCG.split(";")], int)
 
 
 def test_the_variance_between_trials_is_the_published_one():

@@ -72,16 +72,11 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
     random = np.random.default_rng(1)
     for place, learners in places(study).items():
         for learner, every in learners.items():
-            histories = [
-                history(
-                    study.training.during(length)
-                    if throughout(study, place, learner, length)
-                    else [0, length],
-                    study.training.seeds,
-                    learner,
-                )
-                for length in every
-            ]
+            histories = []
+            for length in every:
+                often = throughout(study, place, learner, length)
+                moments = study.training.during(length) if often else [0, length]
+                histories.append(history(moments, study.training.seeds, learner))
             yield place.history_file(RESULTS, learner), pd.concat(histories)
     yield f"{CAMPAIGN}/outcomes.csv", outcomes(study)
     own = random.uniform(0.02, 0.2, (study.campaign.setups, 2))

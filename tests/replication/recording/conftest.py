@@ -110,6 +110,7 @@ def reader(recording: Path):
     batches = [
         (chunk.entity_path, chunk.to_record_batch())
         for chunk in RrdReader(recording).store().stream().to_chunks()
+        if chunk.is_static or CLOCK in chunk.timeline_names  # others are not shown at its times
     ]
 
     def column(entity, component):

@@ -61,6 +61,7 @@ def test_errors_are_those_of_the_history(columns, files, seed):
         assert iterations == [-VISITS, *history["iteration"], ITERATIONS + VISITS]
         measured = history[quantity].iloc[[0, *range(len(history)), -1]]
         assert np.ravel(values) == close(measured.to_numpy(), rel=1e-9)
+        assert columns(f"/errors/{quantity}/improved", "SeriesLines:colors")[0] is None
 
 
 def test_both_arms_move_as_their_kinematics_say(columns, robot, resolved):
@@ -124,6 +125,8 @@ def test_damaged_links_joints_and_base_are_yellow(columns):
         assert abs(direction[1]) == close(np.linalg.norm(direction)), "both turn about y"
     mesh = "/improved/ur10/visual_geometries/forearm_link/visual_0"
     assert columns(mesh, "Asset3D:albedo_factor")[1][0] == [yellow]
+    labels, shades = (columns("/legend", f"Points3D:{key}")[1][0] for key in ("labels", "colors"))
+    assert shades[labels.index("damage")] == yellow
     (circle,) = columns("/improved/damage/base", "LineStrips3D:strips")[1][0]
     assert np.mean(circle[:-1], axis=0) == close([0.01, 0, -0.02], abs=1e-6)
 
