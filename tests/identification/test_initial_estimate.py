@@ -175,36 +175,20 @@ def test_what_a_joint_or_an_arm_cannot_have_is_held_at_zero(load):
         assert held["sine 1"].tolist() == held["cosine 1"].tolist() == [False, True]
 
 
-@pytest.fixture(scope="module")
-def balls(panda):
-    """Joints and sockets of a Panda, its error [m] before, and a function for that after."""
-    real = Real(panda, 1)
+def test_a_ball_in_two_sockets_identifies_an_arm_without_any_instrument(panda):
+    """To the scale of the distance that is known."""
+    real, sockets = Real(panda, 1), np.repeat([0, 1], 40)
     joints = np.concatenate([real.touching(BALL, socket, 40) for socket in SOCKETS])
     fresh = real.postures(100)
     tool, true = panda.forward(fresh), real.ball(BALL, fresh)
-
-    def after(observations):
+    before = aligned(tool[:, :3, 3] + tool[:, :3, :3] @ BALL, true)  # m
+    after = []
+    for length in (0.303, 0.3):
+        distances = [recalib.Distance(0, 1, length)]
+        observations = recalib.Observations(joints, sockets=sockets, distances=distances)
         found = geometry_of(panda, observations)
-        return aligned(found.predict(fresh)[:, :3, 3], true), found
-
-    before = aligned(tool[:, :3, 3] + tool[:, :3, :3] @ BALL, true)
-    return joints, np.repeat([0, 1], 40), before, after
-
-
-def test_a_ball_in_two_sockets_identifies_an_arm_without_any_instrument(balls):
-    joints, sockets, before, after = balls
-    error, found = after(
-        recalib.Observations(joints, None, None, sockets, [recalib.Distance(0, 1, 0.3)])
-    )
-    assert before > 20 * error
+        after.append(aligned(found.predict(fresh)[:, :3, 3], true))
+    assert after[0] > 1e-3 and before > 20 * after[1]
     one, other = found.frames.sockets
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=2e-4)
     assert found.estimate.noise == pytest.approx([1e-4], rel=0.3)
-
-
-def test_the_known_distance_sets_the_scale(balls):
-    joints, sockets, _, after = balls
-    error, _ = after(
-        recalib.Observations(joints, None, None, sockets, [recalib.Distance(0, 1, 0.303)])
-    )
-    assert error > 1e-3
