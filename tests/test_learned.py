@@ -101,10 +101,8 @@ def test_another_robot_is_refused_with_what_differs(message, robot, tmp_path):
 
 
 def test_another_name_is_no_other_robot_but_a_newer_format_is_refused(robot, tmp_path):
-    recalib.save(tmp_path / "a.npz", recalib.PolynomialLearner(1), robot)
-    recalib.load(tmp_path / "a.npz", replace(robot, name="Marvin"))
-    path = tmp_path / "a.npz"
-    recalib.save(path, recalib.PolynomialLearner(1), robot)
+    recalib.save(path := tmp_path / "a.npz", recalib.PolynomialLearner(1), robot)
+    recalib.load(path, replace(robot, name="Marvin"))
     arrays = dict(np.load(path))
     header = json.loads(str(arrays.pop("header"))) | {"version": VERSION + 1}
     np.savez(path, header=json.dumps(header), **arrays)
