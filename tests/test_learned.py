@@ -11,25 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from recalib import (
-    Arm,
-    EccentricGear,
-    HierarchicalLearner,
-    InvalidFile,
-    InvalidSetting,
-    OtherRobot,
-    Outcome,
-    Plant,
-    PolynomialLearner,
-    RecalibError,
-    Rules,
-    Schedule,
-    UncorrectedLearner,
-    UnknownName,
-    apply,
-    load,
-    save,
-)
+import recalib
 from recalib.learners import KINDS, VERSION, class_of, kind_of, read
 from tests.spoiling import spoil
 
@@ -39,9 +21,11 @@ TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
 
 
 @pytest.fixture(scope="module")
-def plant(controller, robot) -> Plant:
+def plant(controller, robot) -> recalib.Plant:
     """A robot with something for a Gaussian process, too."""
-    return Plant(controller, apply(robot, [EccentricGear("elbow_joint", 0.02)]))
+    return recalib.Plant(
+        controller, recalib.apply(robot, [recalib.EccentricGear("elbow_joint", 0.02)])
+    )
 
 
 def train(learner, plant, moves, first=0, run=slice(None)):
@@ -54,8 +38,8 @@ def train(learner, plant, moves, first=0, run=slice(None)):
 @pytest.mark.parametrize(("moves", "more"), [(0, 6), (19, 1)])
 def test_a_learner_goes_on_from_its_file(kind, moves, more, makers, plant, robot, tmp_path):
     learner = train(makers[kind](runs=RUNS), plant, moves)
-    save(tmp_path / "a.npz", learner, robot)
-    loaded = load(tmp_path / "a.npz", robot)
+    recalib.save(tmp_path / "a.npz", learner, robot)
+    loaded = recalib.load(tmp_path / "a.npz", robot)
     assert type(loaded) is type(learner)
     assert json.dumps(loaded.settings()) == json.dumps(learner.settings())
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
@@ -67,12 +51,12 @@ def test_a_learner_goes_on_from_its_file(kind, moves, more, makers, plant, robot
 @pytest.mark.parametrize("kind", KINDS)
 def test_one_run_of_several_is_taken(kind, makers, plant, robot, tmp_path):
     learner = train(makers[kind](runs=RUNS), plant, 5)
-    save(tmp_path / "both.npz", learner, robot)
+    recalib.save(tmp_path / "both.npz", learner, robot)
     for run in range(RUNS):
-        taken = load(tmp_path / "both.npz", robot, run)
+        taken = recalib.load(tmp_path / "both.npz", robot, run)
         assert np.array_equal(taken.command(TESTS[[run]]), learner.command(TESTS)[[run]])
-    with pytest.raises(InvalidSetting, match="run is 2; expected: 0 to 1"):
-        load(tmp_path / "both.npz", robot, 2)
+    with pytest.raises(recalib.InvalidSetting, match="run is 2; expected: 0 to 1"):
+        recalib.load(tmp_path / "both.npz", robot, 2)
 
 
 def longer(model) -> None:
@@ -86,7 +70,7 @@ def renamed(model) -> None:
 def with_arm(robot, change=lambda model: None, tool="tool0"):
     model = robot.arm.model.copy()
     change(model)
-    return replace(robot, arm=Arm(model, tool, "base_link"))
+    return replace(robot, arm=recalib.Arm(model, tool, "base_link"))
 
 
 def with_workspace(robot, **changes):
@@ -109,28 +93,28 @@ OTHERS = {
 
 @pytest.mark.parametrize("message", OTHERS)
 def test_another_robot_is_refused_with_what_differs(message, robot, tmp_path):
-    save(tmp_path / "a.npz", PolynomialLearner(1), robot)
-    with pytest.raises(OtherRobot, match=rf"a\.npz belongs to another robot: its {message}"):
-        load(tmp_path / "a.npz", OTHERS[message](robot))
+    recalib.save(tmp_path / "a.npz", recalib.PolynomialLearner(1), robot)
+    with pytest.raises(
+        recalib.OtherRobot, match=rf"a\.npz belongs to another robot: its {message}"
+    ):
+        recalib.load(tmp_path / "a.npz", OTHERS[message](robot))
 
 
 def test_another_name_is_no_other_robot_but_a_newer_format_is_refused(robot, tmp_path):
-    save(tmp_path / "a.npz", PolynomialLearner(1), robot)
-    load(tmp_path / "a.npz", replace(robot, name="Marvin"))
-    path = tmp_path / "a.npz"
-    save(path, PolynomialLearner(1), robot)
+    recalib.save(path := tmp_path / "a.npz", recalib.PolynomialLearner(1), robot)
+    recalib.load(path, replace(robot, name="Marvin"))
     arrays = dict(np.load(path))
     header = json.loads(str(arrays.pop("header"))) | {"version": VERSION + 1}
     np.savez(path, header=json.dumps(header), **arrays)
     found = rf"format is \('recalib learner', {VERSION + 1}\)"
-    with pytest.raises(InvalidFile, match=rf"{found}; expected: .* {VERSION}\)"):
-        load(path, robot)
+    with pytest.raises(recalib.InvalidFile, match=rf"{found}; expected: .* {VERSION}\)"):
+        recalib.load(path, robot)
 
 
 @pytest.fixture(scope="module", params=KINDS)
 def written(request, makers, plant, robot, tmp_path_factory):
     path = tmp_path_factory.mktemp("written") / "a.npz"
-    save(path, train(makers[request.param](runs=RUNS), plant, 7), robot)
+    recalib.save(path, train(makers[request.param](runs=RUNS), plant, 7), robot)
     return path
 
 
@@ -142,35 +126,37 @@ def test_a_file_that_was_tampered_with_is_refused_or_of_use(written, robot, data
         path = Path(folder) / "a.npz"
         path.write_bytes(written.read_bytes())
         spoil(data.draw, path)
-        with suppress(RecalibError):
-            learner, runs = load(path, robot), len(read(path)[1])
+        with suppress(recalib.RecalibError):
+            learner, runs = recalib.load(path, robot), len(read(path)[1])
             assert learner.command(TESTS[:1].repeat(runs, axis=0)).shape == (runs, *TESTS.shape[1:])
 
 
 def test_a_file_of_which_one_run_commands_no_number_is_refused(robot, tmp_path, monkeypatch):
     """As where its coefficients are huge."""
-    save(tmp_path / "a.npz", PolynomialLearner(1, runs=2), robot)
+    recalib.save(tmp_path / "a.npz", recalib.PolynomialLearner(1, runs=2), robot)
     beyond = np.array([0, np.inf])[:, None, None]
-    monkeypatch.setattr(PolynomialLearner, "command", lambda learner, desired: desired + beyond)
-    with pytest.raises(InvalidFile):
-        load(tmp_path / "a.npz", robot)
+    monkeypatch.setattr(
+        recalib.PolynomialLearner, "command", lambda learner, desired: desired + beyond
+    )
+    with pytest.raises(recalib.InvalidFile):
+        recalib.load(tmp_path / "a.npz", robot)
 
 
 def test_what_cannot_be_loaded_is_not_saved(robot, tmp_path):
-    with pytest.raises(UnknownName, match="UncorrectedLearner.*expected: gaussian_process"):
-        save(tmp_path / "a.npz", UncorrectedLearner(), robot)
+    with pytest.raises(recalib.UnknownName, match="UncorrectedLearner.*expected: gaussian_process"):
+        recalib.save(tmp_path / "a.npz", recalib.UncorrectedLearner(), robot)
     assert not [*tmp_path.iterdir()]
-    with pytest.raises(UnknownName, match=r"'hybird'; expected: .*; did you mean hybrid\?"):
+    with pytest.raises(recalib.UnknownName, match=r"'hybird'; expected: .*; did you mean hybrid\?"):
         class_of("hybird")
 
 
 def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robot, tmp_path):
     """As the winners of several searches have them."""
-    rules = Rules(
+    rules = recalib.Rules(
         True, False, True, True, (2, 2, 2), (2, 2, 2), "faces", (0.3, 0.3, 0.3, 1, 1, 1), 6,
         "logarithms", "exponential",
     )  # fmt: skip
-    own = Schedule(
+    own = recalib.Schedule(
         np.array([4.0, 3.0, 2.0]),
         {"position": (np.array([0.6, 0.7, 0.8]), 1.5), "orientation": (1.0, 1.0)},
         np.array([0.8, 0.9, 0.7]),
@@ -180,16 +166,19 @@ def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robo
 
     def bend(commands):
         executed = np.ones(commands.shape[:2], dtype=bool)
-        return Outcome(commands + 0.1 * np.sin(commands[..., ::-1]), executed)
+        return recalib.Outcome(commands + 0.1 * np.sin(commands[..., ::-1]), executed)
 
     def go_on(learner, runs, moves):
         for move in moves:
             learner.learn(desired[runs, move], bend, move / 10)
         return learner
 
-    together = go_on(HierarchicalLearner(rules, own, runs=3), [0, 1, 2], range(5))
-    save(tmp_path / "together.npz", together, robot)
-    loaded, last = load(tmp_path / "together.npz", robot), load(tmp_path / "together.npz", robot, 2)
+    together = go_on(recalib.HierarchicalLearner(rules, own, runs=3), [0, 1, 2], range(5))
+    recalib.save(tmp_path / "together.npz", together, robot)
+    loaded, last = (
+        recalib.load(tmp_path / "together.npz", robot),
+        recalib.load(tmp_path / "together.npz", robot, 2),
+    )
     assert loaded.rules == rules and loaded.settings() == together.settings()
     for learner, runs in ((together, [0, 1, 2]), (loaded, [0, 1, 2]), (last, [2])):
         go_on(learner, runs, range(5, 10))
@@ -199,11 +188,11 @@ def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robo
 
 
 def test_a_learner_is_of_the_kind_of_its_own_class():
-    class Other(PolynomialLearner):
+    class Other(recalib.PolynomialLearner):
         pass
 
-    assert kind_of(PolynomialLearner(1)) == "polynomial"
-    with pytest.raises(UnknownName, match="unknown kind of learner to save 'Other'"):
+    assert kind_of(recalib.PolynomialLearner(1)) == "polynomial"
+    with pytest.raises(recalib.UnknownName, match="unknown kind of learner to save 'Other'"):
         kind_of(Other(1))
 
 
@@ -214,7 +203,9 @@ def test_what_is_learned_later_leaves_a_state_as_it_was(name, makers):
     def learn(moves):
         for move in moves:
             learner.learn(
-                poses[:, move], lambda sent: Outcome(0.9 * sent, np.ones((2, 1), dtype=bool)), 0.0
+                poses[:, move],
+                lambda sent: recalib.Outcome(0.9 * sent, np.ones((2, 1), dtype=bool)),
+                0.0,
             )
 
     learn(range(3))

@@ -63,8 +63,7 @@ def test_a_link_loses_its_length_and_nothing_else_changes(robot, link, whole):
 )
 def test_a_link_may_lose_its_length_along_an_axis(robot, link, before, after):
     damaged = apply(robot, [LinkShortening(link, 0.04, "axis")])
-    arms = robot.arm, damaged.arm
-    ends = [link_end(arm, robot.links[link]).translation for arm in arms]
+    ends = [link_end(arm, robot.links[link]).translation for arm in (robot.arm, damaged.arm)]
     assert np.allclose(ends, [before, after])
     with pytest.raises(InvalidSetting, match=r"61\.2 cm.*; expected: .* below (61.20|9.22) cm"):
         apply(robot, [LinkShortening(link, 0.612, "axis")])
@@ -114,16 +113,15 @@ def deflection(robot, damage, angles) -> np.ndarray:
     return apply(robot, [damage]).standing(angles) - angles
 
 
-def test_eccentric_gear_moves_its_joint_by_a_sine(robot, angles):
+def test_a_gear_moves_its_joint_by_a_sine_and_a_load_by_its_compliance(robot, angles):
+    """But for a vertical axis, which has no load and rests in the middle of its gap."""
     moved = deflection(robot, EccentricGear("elbow_joint", 0.01, 0.3), angles)
     assert np.allclose(moved[:, 2], 0.01 * np.sin(angles[:, 2] + 0.3))
     assert np.allclose(np.delete(moved, 2, axis=1), 0)
-
-
-def test_a_joint_sags_by_its_compliance_times_its_torque(robot, angles):
     moved = deflection(robot, Sag("elbow_joint", 2e-4), angles)
     torques = robot.arm.gravity_torque(angles)
     assert np.allclose(moved, -2e-4 * torques * np.eye(6)[2], atol=1e-15)
+    assert not deflection(robot, Backlash("shoulder_pan_joint", 0.004), angles).any()
 
 
 @pytest.mark.parametrize(("joint", "heavy"), [(SHOULDER, True), ("wrist_1_joint", False)])
@@ -146,7 +144,3 @@ def test_deflections_start_from_where_the_encoders_leave_the_joints(robot, angle
     sag = -1e-4 * robot.arm.gravity_torque(shifted)[:, 2]
     expected = shifted[:, 2] + sag + 0.01 * np.sin(shifted[:, 2])
     assert np.allclose(both.standing(angles)[:, 2], expected, atol=1e-14)
-
-
-def test_a_vertical_axis_has_no_load_and_rests_in_the_middle_of_its_gap(robot, angles):
-    assert not deflection(robot, Backlash("shoulder_pan_joint", 0.004), angles).any()

@@ -73,8 +73,7 @@ def test_what_an_instrument_adds_does_not_depend_on_where_the_arm_stands():
 
 def test_a_plant_stops_beside_its_poses_by_what_its_joints_do(controller, damaged, commands):
     loose = Disturbances(repeatability=Repeatability(1e-3))
-    plant = Plant(controller, damaged, loose, generators(7, 8))
-    outcome = plant.execute(commands)
+    outcome = Plant(controller, damaged, loose, generators(7, 8)).execute(commands)
     stops = loose.of_joints(generators(7, 8), commands.shape[1:])
     angles = controller.targets(commands).angles + stops
     expected = damaged.forward(angles.reshape(-1, 6)).reshape(*commands.shape[:2], 4, 4)
@@ -102,10 +101,9 @@ def test_a_joint_that_slides_does_not_miss_its_place_by_an_angle(tmp_path, comma
 
 
 def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, commands):
+    noise = Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3))
     quiet = Plant(controller, damaged)
-    noisy = Plant(
-        controller, damaged, Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3)), generators(7, 8)
-    )
+    noisy = Plant(controller, damaged, noise, generators(7, 8))
     assert np.array_equal(noisy.achieve(commands)[0], quiet.achieve(commands)[0])
     difference = noisy.execute(commands).achieved - quiet.execute(commands).achieved
     assert 1e-3 < np.abs(difference).mean() < 1e-1

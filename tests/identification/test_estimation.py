@@ -5,22 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from recalib import (
-    JOINT_ERRORS,
-    OFFSETS,
-    Calibration,
-    Disturbances,
-    Noise,
-    Observations,
-    information_gains,
-    orientation_error,
-    position_error,
-)
+import recalib
 from recalib.identification import identify, most_informative
 from recalib.identification.model import ErrorModel, displacements
 from tests import reference
 
-NOISY = Disturbances(Noise(2e-4, np.radians(0.02)))
+NOISY = recalib.Disturbances(recalib.Noise(2e-4, np.radians(0.02)))
 
 
 def postures(controller, count, seed=1) -> np.ndarray:
@@ -33,7 +23,9 @@ def noisy(arm, angles, seed, disturbances=NOISY) -> np.ndarray:
     return disturbances.measure([np.random.default_rng(seed)], arm.forward(angles)[None])[0]
 
 
-@pytest.mark.parametrize("terms", [OFFSETS, JOINT_ERRORS], ids=["offsets", "joint errors"])
+@pytest.mark.parametrize(
+    "terms", [recalib.OFFSETS, recalib.JOINT_ERRORS], ids=["offsets", "joint errors"]
+)
 @pytest.mark.parametrize("what", ["poses", "positions", "no outlier"])
 def test_the_estimate_is_that_of_the_slow_implementation(robot, damaged, terms, what):
     model = ErrorModel(robot.arm, terms)
@@ -47,7 +39,7 @@ def test_the_estimate_is_that_of_the_slow_implementation(robot, damaged, terms, 
     parameters, noise, weights, evidence = reference.identify(
         lambda these: model.linearise(these, angles, terms=by_posture), model.deviations, measured
     )
-    found = identify(model, Observations(angles, measured))
+    found = identify(model, recalib.Observations(angles, measured))
     unknown = np.sqrt(np.diag(found.covariance))
     assert np.abs((found.parameters - parameters) / unknown).max() < 0.01
     assert found.noise == pytest.approx(noise, rel=1e-3)
@@ -57,22 +49,22 @@ def test_the_estimate_is_that_of_the_slow_implementation(robot, damaged, terms, 
 
 @pytest.mark.parametrize(("what", "rows"), [("poses", 8), ("positions", 30)])
 def test_exact_measurements_identify_the_arm(robot, controller, damaged, what, rows):
-    model, angles = ErrorModel(robot.arm, OFFSETS), postures(controller, 60)
+    model, angles = ErrorModel(robot.arm, recalib.OFFSETS), postures(controller, 60)
     true = damaged.forward(angles)
     measured = true[:rows] if what == "poses" else true[:rows, :3, 3]
-    found = identify(model, Observations(angles[:rows], measured))
+    found = identify(model, recalib.Observations(angles[:rows], measured))
     predicted = model.predict(found.parameters, angles)
-    assert position_error(predicted, true).max() < 1e-6
-    assert what == "positions" or orientation_error(predicted, true).max() < 1e-7
+    assert recalib.position_error(predicted, true).max() < 1e-6
+    assert what == "positions" or recalib.orientation_error(predicted, true).max() < 1e-7
 
 
 def test_the_start_changes_the_time_and_not_the_answer(robot, controller, damaged):
-    model, angles = ErrorModel(robot.arm, OFFSETS), postures(controller, 60)
-    observations = Observations(angles, noisy(damaged, angles, 4))
+    model, angles = ErrorModel(robot.arm, recalib.OFFSETS), postures(controller, 60)
+    observations = recalib.Observations(angles, noisy(damaged, angles, 4))
     cold = identify(model, observations)
     for start in (
         identify(model, observations[:30]),
-        identify(ErrorModel(robot.arm, JOINT_ERRORS), observations),
+        identify(ErrorModel(robot.arm, recalib.JOINT_ERRORS), observations),
     ):
         warm = identify(model, observations, start)
         gaps = model.predict(warm.parameters, angles) - model.predict(cold.parameters, angles)
@@ -81,14 +73,14 @@ def test_the_start_changes_the_time_and_not_the_answer(robot, controller, damage
 
 def test_the_covariance_tells_how_wrong_predictions_are(robot, controller):
     """100 arms with noisy data: predicted poses err as their covariance says, within 20 %."""
-    model, generator = ErrorModel(robot.arm, OFFSETS), np.random.default_rng(6)
+    model, generator = ErrorModel(robot.arm, recalib.OFFSETS), np.random.default_rng(6)
     angles = postures(controller, 25)
     known, asked = angles[:20], angles[20:]
     squares, variances = [], []
     for _ in range(100):
         parameters = model.deviations * generator.standard_normal(len(model.deviations))
         measured = NOISY.measure([generator], model.predict(parameters, known)[None])[0]
-        estimate = identify(model, Observations(known, measured))
+        estimate = identify(model, recalib.Observations(known, measured))
         predicted, jacobians = model.linearise(estimate.parameters, asked)
         squares.append(displacements(predicted, model.predict(parameters, asked)) ** 2)
         variances.append(np.einsum("ndp,pq,ndq->nd", jacobians, estimate.covariance, jacobians))
@@ -103,15 +95,15 @@ def angles(controller):
 
 @pytest.fixture(params=["poses", "positions"])
 def calibration(request, robot, damaged, angles):
-    model, measured = ErrorModel(robot.arm, OFFSETS), damaged.forward(angles[:3])
+    model, measured = ErrorModel(robot.arm, recalib.OFFSETS), damaged.forward(angles[:3])
     measured = measured if request.param == "poses" else measured[:, :3, 3]
-    return Calibration(model, identify(model, Observations(angles[:3], measured)))
+    return recalib.Calibration(model, identify(model, recalib.Observations(angles[:3], measured)))
 
 
 def test_each_of_a_set_is_the_best_given_those_before_it(calibration, angles):
     remaining, known = {*range(len(angles))}, calibration
     for number, covariance in most_informative(calibration, angles, 20):
-        gains = information_gains(known, angles)
+        gains = recalib.information_gains(known, angles)
         assert number == max(remaining, key=gains.__getitem__)
         remaining.remove(number)
         before = np.linalg.slogdet(known.estimate.covariance).logabsdet

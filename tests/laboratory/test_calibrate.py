@@ -1,6 +1,7 @@
 """What is known of frames, sockets and wear, right or wrong: of a small arm, and of a Panda."""
 
 import re
+from functools import partial
 
 import numpy as np
 import pytest
@@ -46,16 +47,13 @@ def table(arm, folder):
     return folder / "known.csv"
 
 
-def calibrated_with(text: str, table) -> Calibrated:
-    """The small arm."""
+def calibrated_with(text: str, table, arm=None, tool=None) -> Calibrated:
+    """The small arm, or another one."""
     (path := table.parent / "description.toml").write_text(text)
-    return calibrate_arm(table.parent / "arm.urdf", table, path)
+    return calibrate_arm(arm or table.parent / "arm.urdf", table, path, tool=tool)
 
 
-def by_ball(text: str, table) -> Calibrated:
-    """The Panda."""
-    (path := table.parent / "description.toml").write_text(text)
-    return calibrate_arm("panda.urdf", table, path, tool="panda_hand_tcp")
+by_ball = partial(calibrated_with, arm="panda.urdf", tool="panda_hand_tcp")
 
 
 def test_frames_that_are_known_leave_base_and_tool_to_the_arm(arm, table):
@@ -103,7 +101,7 @@ def test_a_frame_that_is_not_there_is_named(text, message, table):
         calibrated_with(text, table)
 
 
-def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
+def test_a_ball_in_sockets_needs_no_instrument_and_is_where_it_is_known_to_be(in_sockets):
     result = by_ball(DISTANCE.format("left", 300), in_sockets)
     one, other = result.calibration.frames.sockets
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=1e-3)
@@ -118,6 +116,8 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     assert result.correction.unidentifiable_ends == "the arm's base and the tool link"
     with pytest.raises(InvalidSetting, match="base: balls in sockets need no instrument"):
         result.correct(np.zeros(3), frame="instrument")
+    known = by_ball('[target]\nposition = ["0 mm", "0 mm", "0 mm"]\n', in_sockets)
+    assert np.array_equal(known.calibration.frames.targets[0], np.eye(4))
 
 
 def test_a_range_beyond_the_limits_of_the_urdf_is_told(folder, calibrated):
@@ -164,11 +164,6 @@ def test_centimetres_that_say_millimetres_are_refused(arm, folder):
     joints = postures(12)
     with pytest.raises(Untrustworthy, match="between lift and elbow is 40 mm long by .* 400 mm"):
         calibrated_by(arm, folder, joints, 0.1 * true_positions(arm, joints))
-
-
-def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
-    result = by_ball('[target]\nposition = ["0 mm", "0 mm", "0 mm"]\n', in_sockets)
-    assert np.array_equal(result.calibration.frames.targets[0], np.eye(4))
 
 
 @pytest.mark.parametrize(

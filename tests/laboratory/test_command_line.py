@@ -186,9 +186,8 @@ def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, 
 
 @pytest.mark.parametrize("beyond", [1, 5])
 def test_candidates_that_are_left_out_are_counted(beyond, calibrated, folder, capsys):
-    swing = [1e-3 * row for row in range(4)] + [114.0, -114.0, 114.0, 114.0, -114.0][
-        :beyond
-    ]  # deg, at the ends
+    ends = [114.0, -114.0, 114.0, 114.0, -114.0]  # deg
+    swing = [1e-3 * row for row in range(4)] + ends[:beyond]
     cells = {f"{joint} [deg]": [0.0] * len(swing) for joint in ("lift", "elbow")}
     write(folder / "candidates.csv", {"swing [deg]": swing} | cells)
     out = f"--out={folder / 'chosen.csv'}"

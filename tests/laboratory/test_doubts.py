@@ -232,28 +232,21 @@ def test_two_sessions_are_told_of_beside_the_error(arm, folder):
         two_sessions(arm, folder, 30, [0.03, 0.0, -0.04])
 
 
-@pytest.fixture
-def with_outliers(arm, folder):
+def test_the_first_line_and_the_table_say_how_many_rows_are_left_out(arm, folder):
     joints = postures(3, ROWS)
     positions = measured(arm, joints)
     positions[[7, 30, 31, 44]] += np.random.default_rng(5).normal(0, 0.02, (4, 3))
-    return calibrated_by(arm, folder, joints, positions)
-
-
-def test_the_first_line_and_the_table_say_how_many_rows_are_left_out(with_outliers):
-    _, first, *lines = summary(with_outliers).splitlines()
+    result = calibrated_by(arm, folder, joints, positions)
+    text, errors = summary(result), errors_table(result)
+    _, first, *lines = text.splitlines()
     assert f"4 of {ROWS} rows left out as outliers" in first
     (row,) = [line for line in lines if line.startswith("left out")]
-    largest = errors_table(with_outliers)[-1].largest
+    largest = errors[-1].largest
     assert "4 rows" in row and f"{largest:.3f}" in row and largest > 10
     # the radius of 95 percent is one number wherever it stands
-    text, validation = summary(with_outliers), with_outliers.validation
-    (used,) = [
-        row
-        for row in errors_table(with_outliers)
-        if row.chosen and row.folds == BLOCKWISE and row.unit == "mm"
-    ]
-    assert used.within == pytest.approx(1e3 * validation.radius)
+    chosen = [row for row in errors if row.chosen and row.folds == BLOCKWISE]
+    (used,) = [row for row in chosen if row.unit == "mm"]
+    assert used.within == pytest.approx(1e3 * result.validation.radius)
     assert text.count(f"95 % within {used.within:.3g} mm") == 2
 
 

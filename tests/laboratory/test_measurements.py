@@ -77,12 +77,7 @@ def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
 
 @pytest.mark.parametrize(
     ("of_urdf", "heading"),
-    [
-        ("e\u0301lan", "\u00e9lan"),
-        ("\u00e9lan", "e\u0301lan"),
-        (" rail ", "rail"),
-        ("rail", "rail "),
-    ],
+    [("e\u0301lan", "\u00e9lan"), ("\u00e9lan", "e\u0301lan"), (" a ", "a"), ("a", "a ")],
 )
 def test_names_that_look_alike_are_alike(of_urdf, heading, load, write):
     """With an accent of its own or not, and with blanks at the ends."""
@@ -102,9 +97,7 @@ def test_a_column_of_a_joint_that_follows_another_is_named(load, write):
 @pytest.mark.parametrize("between", ["+-", " +- ", "+/-", " +/- ", "±", " ± "])
 def test_a_deviation_is_written_in_three_ways(between):
     assert within("here", f"3 mm{between}1 mm", LENGTH) == (0.003, 0.001)
-    with pytest.raises(
-        InvalidSetting, match="the deviation of here is '0 mm'; expected: more than"
-    ):
+    with pytest.raises(InvalidSetting, match="deviation of here is '0 mm'; expected: more than"):
         within("here", f"3 mm{between}0 mm", LENGTH)
 
 

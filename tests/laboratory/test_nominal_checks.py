@@ -36,12 +36,11 @@ def turned(degrees: float) -> np.ndarray:
     return pin.SE3(pin.exp3(np.radians([0, 0, degrees])), np.zeros(3)).homogeneous
 
 
-def test_positions_of_the_nominal_arm_pass(ur10, joints, nominal):
+def test_positions_of_the_nominal_arm_pass_and_frames_that_nobody_knows_are_told(
+    ur10, joints, nominal
+):
     assert check_nominal(ur10, joints, nominal, np.eye(4), TOOL_POINT) is None
     assert check_nominal(ur10, joints, ur10.forward(joints)[:, :3, 3]) is None
-
-
-def test_frames_that_nobody_knows_are_told_not_refused(ur10, joints, nominal):
     offset = check_nominal(ur10, joints, nominal @ turned(170)[:3, :3].T)
     point = "a tool point at (0, 20, 120) mm of the tool link"
     assert offset == f"the base turned by 170.0 deg about (0, 0, 1) and {point}"
@@ -228,9 +227,13 @@ def test_a_tool_that_was_forgotten_is_named(ur10, joints, nominal):
         check_nominal(ur10, joints, nominal, np.eye(4), np.eye(4))
 
 
-def test_where_all_positions_are_one_nothing_explains_them(ur10, joints, nominal):
-    with pytest.raises(Mistaken, match="is it another arm"):
-        check_nominal(ur10, joints, np.ones_like(nominal))
+def test_another_arm_and_positions_that_are_all_one_are_no_mistake_of_a_column(
+    ur10, joints, nominal
+):
+    ur5 = load_arm("ur5_robot.urdf", "tool0")
+    for arm, positions in ((ur5, nominal), (ur10, np.ones_like(nominal))):
+        with pytest.raises(Mistaken, match="is it another arm"):
+            check_nominal(arm, joints, positions)
 
 
 def test_a_mistake_leaves_no_row_far_off(ur10, joints, nominal):
@@ -241,24 +244,12 @@ def test_a_mistake_leaves_no_row_far_off(ur10, joints, nominal):
     assert likely_mistake(ur10, wrong, observed) is None
 
 
-def test_another_arm_is_no_mistake_of_a_column(joints, nominal):
-    with pytest.raises(Mistaken, match="is it another arm"):
-        check_nominal(load_arm("ur5_robot.urdf", "tool0"), joints, nominal)
-
-
 @pytest.mark.parametrize("count", [3, 8])
 @pytest.mark.parametrize(
-    ("spoil", "words"),
-    [
-        (lambda q, p: (np.radians(q), p), "joint columns in radians labelled deg"),
-        (lambda q, p: (changed(q, 2, np.radians), p), "a column elbow_joint that holds radians"),
-        (lambda q, p: (q, p * 1e-3), "positions in metres labelled mm"),
-        (lambda q, p: (changed(q, 2, np.negative), p), "the sign of elbow_joint"),
-    ],
-    ids=["units of joints", "unit of a joint", "unit of positions", "sign"],
+    "name", ["radians", "the unit of one joint", "metres for millimetres", "a sign"]
 )
-def test_a_mistake_in_some_rows_is_named(spoil, words, count, ur10):
-    real = Real(ur10, 2)
+def test_a_mistake_in_some_rows_is_named(name, count, ur10):
+    real, (spoil, words) = Real(ur10, 2), MISTAKES[name]
     joints = real.postures(40)
     places = real.poses(joints)[:, :3, 3]
     geometry = geometry_of(ur10, Observations(joints, places))

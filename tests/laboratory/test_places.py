@@ -2,7 +2,6 @@
 
 import csv
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -84,7 +83,8 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     poses = np.array(values["base_in_instrument"]) @ arm.forward(observations.joints) @ targets
     predicted = result.geometry.predict(observations.joints, observations.targets)
     assert np.abs(poses - predicted).max() < 1e-9
-    rows = read_places(folder)
+    with (folder / "frames.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
     assert [(row["frame"], row["in"]) for row in rows] == [
         ("the instrument", values["base"]),
         ("target left", values["tool"]),
@@ -95,15 +95,10 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     base = np.linalg.inv(values["base_in_instrument"])
     assert np.allclose(instrument, 1e3 * base[:3, 3], atol=0.01)
     assert np.allclose(left, 1e3 * np.array(values["targets_in_tool"]["left"])[:3, 3], atol=0.01)
-    instrument, left, _ = read_places(calibrated[1])
+    instrument, left, _ = rows
     assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
     deviation, real_deviation = "deviation [mm]", "deviation relative to the real link [mm]"
     assert 0 < float(left[deviation]) < 1 < float(left[real_deviation])
-
-
-def read_places(folder: Path) -> list[dict[str, str]]:
-    with (folder / "frames.csv").open(newline="") as stream:
-        return list(csv.DictReader(stream))
 
 
 @few_folds()

@@ -3,24 +3,13 @@ from itertools import product
 import numpy as np
 import pytest
 
-from recalib import (
-    Chain,
-    Controller,
-    EncoderShift,
-    GeometricLearner,
-    Plant,
-    UnfitWorkspace,
-    Unreachable,
-    apply,
-    orientation_error,
-    position_error,
-)
+import recalib
 from replication.scenarios import nominal_controller
 from tests.conftest import changed
 
 
 @pytest.fixture(params=["ur10", "ur5", "ur3", "z1", "panda"])
-def some(request, plan, redundant) -> Controller:
+def some(request, plan, redundant) -> recalib.Controller:
     if request.param == "panda":
         return redundant
     return nominal_controller(plan.nominal(request.param))
@@ -30,8 +19,8 @@ def test_forward_of_inverse_is_the_pose(some):
     workspace = some.robot.workspace
     poses = workspace.to_poses(workspace.sample(np.random.default_rng(1), 1000))
     reached = some.robot.arm.forward(some.inverse(poses))
-    assert position_error(reached, poses).max() < 1e-9
-    assert orientation_error(reached, poses).max() < 1e-9
+    assert recalib.position_error(reached, poses).max() < 1e-9
+    assert recalib.orientation_error(reached, poses).max() < 1e-9
 
 
 def test_a_command_gives_the_same_angles_whatever_comes_before_and_beside_it(some):
@@ -57,7 +46,7 @@ def test_neighbouring_commands_stay_on_the_branch_of_home(some):
 def test_a_pose_out_of_reach_is_an_error_that_names_it(controller):
     pose = controller.robot.workspace.centre.copy()
     pose[0, 3] = 3.0
-    with pytest.raises(Unreachable, match=r"\(3.000, .*no joint angles reach it") as caught:
+    with pytest.raises(recalib.Unreachable, match=r"\(3.000, .*no joint angles reach it") as caught:
         controller.inverse(np.stack([controller.robot.workspace.centre, pose]))
     assert caught.value.residual > 1 and caught.value.position[0] == 3.0
 
@@ -71,7 +60,7 @@ def test_a_pose_beyond_a_joint_limit_on_either_side_is_an_error(plan, controller
         bounds[int(angle > 0)] = angle + np.copysign(0.01, angle) * (-1 if beyond else 1)
         limited = changed(plan.nominal("ur10"), robot={"limits": {"wrist_3_joint": bounds}})
         if beyond:
-            with pytest.raises(Unreachable, match="only beyond the joint limits"):
+            with pytest.raises(recalib.Unreachable, match="only beyond the joint limits"):
                 nominal_controller(limited).inverse(turned)
         else:
             assert nominal_controller(limited).inverse(turned)[0, 5] == angle
@@ -79,7 +68,7 @@ def test_a_pose_beyond_a_joint_limit_on_either_side_is_an_error(plan, controller
 
 def test_commands_beyond_the_workspace_are_solved_on_the_branch_of_home(controller):
     """As by going there in small steps, not by a polynomial of what it was never fitted to."""
-    workspace, chain = controller.robot.workspace, Chain.of(controller.robot.arm)
+    workspace, chain = controller.robot.workspace, recalib.Chain.of(controller.robot.arm)
     far = np.random.default_rng(0).uniform(-1, 1, (400, 6))
     far *= 2.5 / np.abs(far).max(axis=1, keepdims=True)
     angles, all_the_way = np.tile(controller.robot.home, (len(far), 1)), np.ones(len(far), bool)
@@ -105,7 +94,7 @@ def test_a_workspace_out_of_reach_or_too_near_to_a_singularity_is_refused(plan, 
     nominal = plan.nominal("ur10")
     far = changed(nominal, robot={"workspace": {"position": (1.5, 1.5, 1.5)}})
     message = r"cannot reach \d+ of the 729 poses.*Make its workspace smaller"
-    with pytest.raises(UnfitWorkspace, match=message):
+    with pytest.raises(recalib.UnfitWorkspace, match=message):
         nominal_controller(far)
     workspace = robot.workspace
     grid = np.array([*product((-1.0, 0.0, 1.0), repeat=6)])
@@ -113,9 +102,9 @@ def test_a_workspace_out_of_reach_or_too_near_to_a_singularity_is_refused(plan, 
     in_units = jacobians / workspace.half_ranges[:, None]
     greatest = np.linalg.svd(in_units, compute_uv=False)[:, [0, -1]]
     condition = (greatest[:, 0] / greatest[:, 1]).max()
-    Controller(robot, greatest_condition=condition * 1.0001)
-    with pytest.raises(UnfitWorkspace, match=f"singularity.* reaches {condition:.3g}; "):
-        Controller(robot, greatest_condition=condition * 0.9999)
+    recalib.Controller(robot, greatest_condition=condition * 1.0001)
+    with pytest.raises(recalib.UnfitWorkspace, match=f"singularity.* reaches {condition:.3g}; "):
+        recalib.Controller(robot, greatest_condition=condition * 0.9999)
 
 
 @pytest.mark.parametrize("limits", [(110, 350), (-350, 130)], ids=["lower", "upper"])
@@ -123,7 +112,7 @@ def test_a_workspace_beyond_a_joint_limit_is_refused(plan, limits):
     message = "move elbow_joint to .* deg in .* limits of {:.1f} deg to {:.1f} deg".format(*limits)
     limits = {"elbow_joint": np.radians(limits)}
     limited = changed(plan.nominal("ur10"), robot={"limits": limits})
-    with pytest.raises(UnfitWorkspace, match=message):
+    with pytest.raises(recalib.UnfitWorkspace, match=message):
         nominal_controller(limited)
 
 
@@ -141,10 +130,12 @@ def test_commands_are_found_for_joint_angles_that_the_controller_would_not_choos
     """After an arm of seven joints with shifted encoders was identified from forty moves."""
     robot, rng = redundant.robot, np.random.default_rng(3)
     shifts = zip(robot.joints, np.radians([1, -2, 4, 1, -3, 2, 1]), strict=True)
-    plant = Plant(redundant, apply(robot, [EncoderShift(*shift) for shift in shifts]))
-    learner, practised = GeometricLearner(redundant), robot.workspace.sample(rng, 1, 40)
+    plant = recalib.Plant(
+        redundant, recalib.apply(robot, [recalib.EncoderShift(*shift) for shift in shifts])
+    )
+    learner, practised = recalib.GeometricLearner(redundant), robot.workspace.sample(rng, 1, 40)
     learner.observe(practised, *plant.execute(practised))
     desired = robot.workspace.sample(rng, 1, 30)
     achieved, executed = plant.achieve(learner.command(desired))
     assert executed.all()
-    assert position_error(achieved, robot.workspace.to_poses(desired)).max() < 1e-6
+    assert recalib.position_error(achieved, robot.workspace.to_poses(desired)).max() < 1e-6

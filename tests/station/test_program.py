@@ -9,15 +9,7 @@ import time
 import numpy as np
 import pytest
 
-from recalib import (
-    Answer,
-    LiveSettings,
-    ProgramStation,
-    StationFailed,
-    calibrate_live,
-    load_arm,
-    load_correction,
-)
+import recalib
 from recalib.laboratory.command_line import DONE, main
 from recalib.station import open_station
 from tests.conftest import ROOT, few_folds
@@ -51,7 +43,7 @@ def program(tmp_path, monkeypatch):
 
     def start(**answers):
         text = PROGRAM.format(answers=json.dumps(ANSWERS | answers))
-        stations.append(ProgramStation([sys.executable, "-c", text]))
+        stations.append(recalib.ProgramStation([sys.executable, "-c", text]))
         return stations[-1]
 
     yield start
@@ -63,7 +55,7 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
     station = program()
     assert list(station.joints) == ["a", "b"]
     assert tuple(station.limits) == ([-1, -1], [1, 1])
-    station.move(load_arm("ur10_robot.urdf", "tool0").model.upperPositionLimit[:2], 0.2)
+    station.move(recalib.load_arm("ur10_robot.urdf", "tool0").model.upperPositionLimit[:2], 0.2)
     assert station.angles() == [0.1, 0.2]
     assert station.measure() == {"x [m]": 0.5, "target": "ball"}
     station.stop()
@@ -84,29 +76,29 @@ def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
     ],
 )
 def test_an_answer_that_is_none_is_told(program, answer, message):
-    with pytest.raises(StationFailed, match=message):
+    with pytest.raises(recalib.StationFailed, match=message):
         program(measure=answer).measure()
 
 
 def test_an_error_may_be_the_answer_to_each_request(program):
     station = program(**dict.fromkeys(("move", "angles", "measure"), '{"error": "a collision"}'))
     for ask in (lambda: station.move(np.zeros(2), 0.1), station.angles, station.measure):
-        with pytest.raises(StationFailed, match="python.*: a collision"):
+        with pytest.raises(recalib.StationFailed, match="python.*: a collision"):
             ask()
 
 
 def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = PROGRAM.format(answers=json.dumps({"describe": json.dumps(DESCRIBED)}))
-    station = ProgramStation([sys.executable, "-c", text])
+    station = recalib.ProgramStation([sys.executable, "-c", text])
     for _ in range(2):
-        with pytest.raises(StationFailed, match="ended before it answered 'angles'"):
+        with pytest.raises(recalib.StationFailed, match="ended before it answered 'angles'"):
             station.angles()
     station.stop()
     station.close()
     monkeypatch.setattr("recalib.station.opening.PATIENCE", 0.1)
     text = f"import time; print({json.dumps(DESCRIBED)!r}, flush=True); time.sleep(60)"
-    station, start = ProgramStation([sys.executable, "-c", text]), time.monotonic()
+    station, start = recalib.ProgramStation([sys.executable, "-c", text]), time.monotonic()
     station.close()
     assert time.monotonic() - start < 30
 
@@ -114,14 +106,14 @@ def test_a_program_that_ends_is_told_and_one_that_does_not_is_ended(tmp_path, mo
 @pytest.mark.skipif(not shutil.which("node"), reason="needs node")
 def test_the_example_in_another_language_is_a_station(tmp_path, monkeypatch):
     monkeypatch.setattr("recalib.station.guarded.PATIENCE", 60)  # s: Node starts slowly
-    arm, answers = load_arm("ur10_robot.urdf", "tool0"), iter([Answer.MOVE] * 10)
+    arm, answers = recalib.load_arm("ur10_robot.urdf", "tool0"), iter([recalib.Answer.MOVE] * 10)
     program = f"node {ROOT / 'examples' / 'station.js'}"
-    end = calibrate_live(
+    end = recalib.calibrate_live(
         lambda: open_station(program),
         arm,
         tmp_path / "rows.csv",
-        LiveSettings(),
-        lambda move: next(answers, Answer.END),
+        recalib.LiveSettings(),
+        lambda move: next(answers, recalib.Answer.END),
     )
     assert end == ("you ended it", 11)
 
@@ -137,7 +129,7 @@ def test_the_example_in_python_is_a_station(tmp_path, capsys):
     assert "more rows would reduce it by less than 5 %" in capsys.readouterr().err
     station = runpy.run_path(str(example))["BentUR10"]()
     fresh = station.angles() + np.random.default_rng(0).uniform(-0.7, 0.7, (50, 6))
-    found = load_correction(tmp_path / "new" / "correction.npz").calibration.predict(fresh)
+    found = recalib.load_correction(tmp_path / "new" / "correction.npz").calibration.predict(fresh)
     gaps = found[:, :3, 3] - [station.position_at(angles) for angles in fresh]
     assert np.linalg.norm(gaps, axis=1).mean() < 5e-4
 
@@ -145,5 +137,5 @@ def test_the_example_in_python_is_a_station(tmp_path, capsys):
 def test_a_file_imports_its_neighbours(tmp_path):
     (tmp_path / "driver_of_mine.py").write_text("SPEED = 3")
     (tmp_path / "mine.py").write_text("import driver_of_mine\nStation = driver_of_mine.__class__")
-    with pytest.raises(StationFailed, match=r"mine.py:Station cannot be made: TypeError"):
+    with pytest.raises(recalib.StationFailed, match=r"mine.py:Station cannot be made: TypeError"):
         open_station(f"{tmp_path / 'mine.py'}:Station")

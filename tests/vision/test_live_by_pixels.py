@@ -30,13 +30,6 @@ def live(request):
     return pictured(1, request.param)
 
 
-def with_row(station, rows):
-    """Rows with the picture that was taken last."""
-    paths = [str(number) for number in range(1, station.taken + 1)]
-    poses, optics = station.pictures(paths)
-    return Observations(np.vstack([rows.joints, station.stands]), poses, optics=optics)
-
-
 def test_it_ends_by_itself_with_less_than_half_of_the_error_of_poses(live):
     assert f"{1e3 * FINER:g} mm was requested" in live.reason
     assert len(live.rows) >= SOON, "few pictures say nothing of postures that are not seen"
@@ -56,7 +49,15 @@ def test_no_picture_is_taken_in_vain_once_there_is_a_calibration(live):
     for _ in range(5):
         station.move(running.next_posture(rows, []), 1.0)
         assert station.measure() is not None
-        rows = with_row(station, rows)
+        poses, optics = station.pictures([*map(str, range(1, station.taken + 1))])
+        joints = np.vstack([rows.joints, station.stands])
+        rows = Observations(joints, poses, optics=optics)
+
+
+def opened(cell):
+    """The pictures of a camera next to the arm, and the table with their rows."""
+    pictures = BoardInPictures(cell.board, cell.lens, False)
+    return pictures, Record("table.csv", cell.arm, Description(), pictures)
 
 
 @pytest.fixture
@@ -65,8 +66,7 @@ def session(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     cell = Cell(3)
     joints = cell.postures(3)
-    pictures = BoardInPictures(cell.board, cell.lens, False)
-    record = Record("table.csv", cell.arm, Description(), pictures)
+    pictures, record = opened(cell)
     for number, (angles, pose) in enumerate(zip(joints, cell.board_poses(joints), strict=True)):
         cv2.imwrite(f"{number}.png", cell.picture(pose))
         cells = PicturesOfABoard(Photographs(f"{number}.png"), pictures).measure()
@@ -77,8 +77,7 @@ def session(tmp_path, monkeypatch):
 
 def read_again(cell):
     """The table by another process."""
-    pictures = BoardInPictures(cell.board, cell.lens, False)
-    record = Record("table.csv", cell.arm, Description(), pictures)
+    _, record = opened(cell)
     record.close()
     return record.observations
 
@@ -145,7 +144,7 @@ def test_what_stands_is_measured_in_what_moves(in_hand, tmp_path):
         camera.measure()
 
 
-def test_what_is_no_picture_of_it_is_told(tmp_path):
+def test_what_is_no_picture_of_it_is_told(tmp_path, monkeypatch):
     station, cell = Photographs(tmp_path / "grey.png"), Cell(3)
     camera = PicturesOfABoard(station, BoardInPictures(cell.board, cell.lens, False))
     for cells, message in (
@@ -162,21 +161,15 @@ def test_what_is_no_picture_of_it_is_told(tmp_path):
     grey = np.full(cell.lens.size[::-1], 128, np.uint8)
     cv2.imwrite(str(tmp_path / "grey.png"), grey)
     assert camera.measure() is None
-    station.measure = lambda: None
-    assert camera.measure() is None
 
-
-def test_a_picture_with_few_good_corners_is_no_sight_of_the_board(tmp_path, monkeypatch):
-    """`observe` would refuse it at the end."""
-    cell, path = Cell(3), tmp_path / "000.png"
-    cv2.imwrite(str(path), cell.picture(*cell.board_poses(cell.postures(1))))
-
-    def few(board, lens, view):
+    def few(board, lens, view):  # `observe` would refuse them at the end
         return Corners(view.numbers[:7], view.pixels[:7], view.softness)
 
     monkeypatch.setattr("recalib.vision.views.good_corners", few)
-    pictures = BoardInPictures(cell.board, cell.lens, False)
-    assert PicturesOfABoard(Photographs(path), pictures).measure() is None
+    cv2.imwrite(str(tmp_path / "grey.png"), cell.picture(*cell.board_poses(cell.postures(1))))
+    assert camera.measure() is None
+    station.measure = lambda: None
+    assert camera.measure() is None
 
 
 class Still:

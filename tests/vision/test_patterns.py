@@ -170,9 +170,8 @@ def test_a_mirrored_print_of_markers_is_named(name):
 def test_a_part_of_a_plain_pattern_is_refused(name):
     board, sheet = SHEETS[name]
     beside = sheet.picture(frame([0, 0, 0], [0.25, 0, 0.5]))
-    with pytest.raises(
-        Unusable, match=r"it does not show all \d+ (corners of the chessboard|circ\w+)$"
-    ):
+    part = r"it does not show all \d+ (corners of the chessboard|circ\w+)$"
+    with pytest.raises(Unusable, match=part):
         find_corners(board, beside)
     with pytest.raises(Unusable, match=r"; it is blurred, by [3-5]\.\d px or more"):
         find_corners(board, cv2.GaussianBlur(beside, (0, 0), 5))

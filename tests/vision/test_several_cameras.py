@@ -83,18 +83,11 @@ def in_one_fit(tmp_path_factory):
     return make
 
 
-def changed(number: int, **what):
-    """The second of two fixed cameras, or the first, with something else."""
-    cell = (Cell(SEED), beside(SEED))[number]
-    for name, value in what.items():
-        setattr(cell, name, value)
+def changed(**what) -> Cell:
+    """The second of two fixed cameras, with something else."""
+    cell = beside(SEED)
+    vars(cell).update(what)
     return cell
-
-
-def beside_left(folder, cell: Cell) -> list:
-    """Folders of two fixed cameras, of which the right one has this cell."""
-    left = write_session(folder / "left", Cell(SEED), "left")
-    return [left, write_session(folder / "right", cell, "right")]
 
 
 def true_place(name: str, sessions) -> np.ndarray:
@@ -221,10 +214,11 @@ def test_a_camera_on_the_hand_that_slips_beside_a_fixed_one_is_named(tmp_path):
 
 
 def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
-    moved = changed(1, sheet=Cell(SEED).sheet @ frame([0, 0, 0], [0.003, 0, 0]))
-    folders = beside_left(tmp_path, moved)
-    text = verdict(calibrated(*folders))
-    assert f"{folders[1]}, before row 1, the board seems to have slipped on the tool by 3" in text
+    moved = changed(sheet=Cell(SEED).sheet @ frame([0, 0, 0], [0.003, 0, 0]))
+    left = write_session(tmp_path / "left", Cell(SEED), "left")
+    right = write_session(tmp_path / "right", moved, "right")
+    text = verdict(calibrated(left, right))
+    assert f"{right}, before row 1, the board seems to have slipped on the tool by 3" in text
     assert "try each folder by itself" in text
 
 
@@ -238,10 +232,10 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
         ((beside(SEED), "left"), "it has camera 'left' and board 'board', as .* try: observe wi"),
         ((on_the_hand(), "left", "other"), "it has camera 'left' on the hand, .* next to the arm"),
         ((on_the_hand(), "right"), "its board 'board' differs from that in "),
-        ((changed(1, board=SMALL), "right"), "its board 'board' differs from that in "),
+        ((changed(board=SMALL), "right"), "its board 'board' differs from that in "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
-        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from its place in"),
-        ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
+        ((changed(sheet=FAR), "right"), "the board by camera right is 825 mm from its place in"),
+        ((changed(sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
     ],
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],
 )

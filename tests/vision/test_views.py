@@ -28,7 +28,8 @@ def poses(cell):
     return cell.board_poses(cell.postures(3))
 
 
-def test_corners_are_found_where_they_are_and_blur_along_half_of_the_edges_is_seen(cell, poses):
+def test_corners_are_found_where_they_are_and_their_blur_is_measured_in_pixels(cell, poses):
+    """Also along half of the edges."""
     for pose in poses:
         found = find_corners(BOARD, cell.picture(pose))
         gaps = found.pixels - cell.project(pose)[found.numbers]
@@ -37,6 +38,9 @@ def test_corners_are_found_where_they_are_and_blur_along_half_of_the_edges_is_se
     moved = cv2.blur(still, (8, 1))  # by 8 px to the side: a deviation of 8 / sqrt(12)
     found = find_corners(BOARD, moved)
     assert found.softness == pytest.approx(8 / np.sqrt(12), rel=0.3)
+    for blur in (0.8, 1.5, 2.5):
+        found = find_corners(BOARD, cell.picture(poses[0], blur=blur))
+        assert found.softness == pytest.approx(blur, abs=0.25)
 
 
 def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
@@ -99,9 +103,9 @@ def test_poses_move_with_optics_as_it_is_said(in_hand):
 
 @PLACES
 def test_poses_are_as_sure_as_is_said(in_hand):
+    """And what moves corners is a length across the line of sight."""
     cell = Cell(3, in_hand)
-    poses = cell.board_poses(cell.postures(300))
-    rng = np.random.default_rng(3)
+    poses, rng = cell.board_poses(cell.postures(300)), np.random.default_rng(3)
     views = [cell.view(pose, NOISE, rng) for pose in poses]
     sightings = [sighting(BOARD, LENS, view, False, in_hand) for view in views]
     measured, optics = optics_of(LENS, sightings)
@@ -111,22 +115,7 @@ def test_poses_are_as_sure_as_is_said(in_hand):
     off = optics.moved(gaps)
     per_axis = off.std() ** 2 + off.mean() ** 2  # six of the numbers of noise move the pose
     assert per_axis == pytest.approx(6 * NOISE**2 / len(BOARD.points), rel=0.1)
-
-
-@PLACES
-def test_what_moves_corners_is_a_length_across_the_line_of_sight(in_hand):
-    cell = Cell(3, in_hand)
-    poses, rng = cell.board_poses(cell.postures(200)), np.random.default_rng(3)
-    ends = [
-        optics_of(
-            LENS,
-            [sighting(BOARD, LENS, cell.view(pose, noise, rng), False, in_hand) for pose in poses],
-        )
-        for noise in (0, NOISE)
-    ]
-    (exact, _), (measured, optics) = ends
-    off = optics.across(optics.moved(displacements(exact, measured)))
-    assert np.sqrt(np.mean(off**2)) == pytest.approx(optics.noise, rel=0.1)
+    assert np.sqrt(np.mean(optics.across(off) ** 2)) == pytest.approx(optics.noise, rel=0.1)
     sideways, away = np.zeros((2, len(poses), 6))
     middle = poses[:, :3, :3] @ [*BOARD.size / 2, 0] + poses[:, :3, 3]
     lines = middle / np.linalg.norm(middle, axis=1)[:, None]
@@ -164,9 +153,3 @@ def test_pictures_are_predicted(in_hand):
         "front": True,
         **dict.fromkeys(hidden, False),
     }
-
-
-@pytest.mark.parametrize("blur", [0.8, 1.5, 2.5])
-def test_a_blur_is_measured_in_pixels(cell, poses, blur):
-    found = find_corners(BOARD, cell.picture(poses[0], blur=blur))
-    assert found.softness == pytest.approx(blur, abs=0.25)

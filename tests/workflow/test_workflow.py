@@ -96,11 +96,9 @@ def test_a_final_error_outside_of_its_band_ends_the_run_with_its_name(continued)
     wrong = continued.folder / "wrong.csv"
     bands.assign(low=bands["low"] + 10, high=bands["high"] + 10).to_csv(wrong, index=False)
     check = "--", "results/studies/tiny/check.txt"
-    broken = continued.run("--config", f"expected={wrong}", *check)
-    output = broken.expect_failure().output
-    assert re.search(
-        r"improved, \d+ iterations, on the ur10, links_encoders: position_error", output
-    )
+    broken = continued.run("--config", f"expected={wrong}", *check).expect_failure()
+    named = r"improved, \d+ iterations, on the ur10, links_encoders: position_error"
+    assert re.search(named, broken.output)
     continued.run(*check).expect_success()
 
 
@@ -118,19 +116,13 @@ def test_another_value_under_the_shipped_name_is_refused_and_changes_nothing(tmp
     assert subprocess.check_output([*git, "status", "--porcelain"], cwd=tmp_path) == b""
 
 
-LESS = {
-    "experiments": {"scenarios": ["links_encoders"], "switches": False},
-    "training": {"seeds": 2, "tests": 20},
-    "search": {"searches": 2},
-}
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("urdf", ["kinova.urdf", "xarm7.urdf"])
 def test_another_arm_is_damaged_trained_drawn_and_recorded(urdf, tmp_path):
     """One of six joints and one of seven, with the paper's damage."""
     row = next(row for row in ARMS if row["urdf"] == urdf)
-    mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry_of(row)}} | LESS
+    mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry_of(row)}}
+    mine["experiments"] = {"scenarios": ["links_encoders"], "switches": False}
+    mine |= {"training": {"seeds": 2, "tests": 20}, "search": {"searches": 2}}
     project = Project(tmp_path, *CORES, "--configfile", "mine.yaml", name="mine")
     (tmp_path / "mine.yaml").write_text(yaml.safe_dump(mine), encoding="utf-8")
     project.run().expect_success()

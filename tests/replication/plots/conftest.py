@@ -99,15 +99,11 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
     )
     propagation = balls.to_frame(index=False)
     updated = np.clip(0.02 * propagation["scale"], 0, 0.9)
-    yield (
-        f"{RESULTS}/mapping/propagation.parquet",
-        propagation.assign(classic=1.0, updated=updated, to_original=updated, to_constant=1.0),
-    )
+    errors = {"classic": 1.0, "updated": updated, "to_original": updated, "to_constant": 1.0}
+    yield f"{RESULTS}/mapping/propagation.parquet", propagation.assign(**errors)
     visits = pd.DataFrame({"distance": np.linspace(0, 1, 9), "width": 0.2, "error": 0.001})
-    yield (
-        f"{RESULTS}/mapping/visits.parquet",
-        visits.assign(ratio=np.minimum(1, 0.5 + visits["distance"])),
-    )
+    visits["ratio"] = np.minimum(1, 0.5 + visits["distance"])
+    yield f"{RESULTS}/mapping/visits.parquet", visits
     budgets = [1, 10, 100, 1000]
     benchmark = pd.MultiIndex.from_product(
         [study.benchmark.scenarios, [*study.benchmark.papers, *study.benchmark.learners], budgets],
@@ -120,10 +116,8 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
         [[*study.real.learners, *study.real.twin], [5, 50, 1000]], names=["learner", "poses"]
     ).to_frame(index=False)
     order = real["learner"].factorize()[0]
-    real = real.assign(
-        twin=real["learner"].isin([*study.real.twin]),
-        position_error_mm=2.5 / real["poses"] ** (0.05 * order),
-    )
+    real["twin"] = real["learner"].isin([*study.real.twin])
+    real["position_error_mm"] = 2.5 / real["poses"] ** (0.05 * order)
     real = ends(real, "position_error_mm")
     once = real["learner"] == UNCORRECTED
     real.loc[once, ["position_error_mm_low", "position_error_mm_high"]] = np.nan
@@ -134,12 +128,8 @@ def disturbed(table: pd.DataFrame) -> pd.DataFrame:
     """The table as another machine might compute it."""
     numbers = table.select_dtypes("float").columns.difference(["scale", "width"])  # as configured
     signs = np.random.default_rng(9).choice([-1, 1], (len(table), len(numbers)))
-    return table.assign(
-        **{
-            name: table[name] * (1 + NOISE * sign)
-            for name, sign in zip(numbers, signs.T, strict=True)
-        }
-    )
+    named = zip(numbers, signs.T, strict=True)
+    return table.assign(**{name: table[name] * (1 + NOISE * sign) for name, sign in named})
 
 
 @pytest.fixture(scope="session")

@@ -77,11 +77,9 @@ def test_steps_say_how_many_iterations_were_planted(figures):
 
 def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project):
     def shortened(table):
-        return (
-            table
-            if "variant" not in table
-            else table[(table["variant"] != RITTER) | (table["iterations"] <= 1000)]
-        )
+        if "variant" not in table:
+            return table
+        return table[(table["variant"] != RITTER) | (table["iterations"] <= 1000)]
 
     figure = rendering.drawn(Figure.STEPS, Evidence(small, project(shortened)))
     assert right_of(figure.axes[1])[0] == "> 1,000 (5×)"
@@ -95,22 +93,14 @@ def test_contrasts_show_every_setup_and_what_was_found(figures, evidence, small)
     theta = found["theta-increments"]
     assert f"{theta.estimates[0].value:.3g} {theta.verdict}" in words
     assert theta.estimates[0].value == pytest.approx(1 / 2.5, rel=0.1), "as planted"
-    dots = np.concatenate(
-        [
-            collection.get_offsets()[:, 0]
-            for collection in figures[Figure.CONTRASTS].axes[0].collections
-            if len(collection.get_offsets()) == evidence.study.campaign.setups
-        ]
-    )
+    drawn = [dots.get_offsets() for dots in figures[Figure.CONTRASTS].axes[0].collections]
+    of_setups = [dots for dots in drawn if len(dots) == evidence.study.campaign.setups]
+    dots = np.concatenate(of_setups)[:, 0]
     ratios = [row.numbers for row in shown if not row.is_share]
     assert np.allclose(np.sort(dots), np.sort(np.concatenate(ratios)))
     estimands = {claim.id: getattr(claim, "estimand", None) for claim in claims(small)}
-    by_errors = {
-        name
-        for name, estimand in estimands.items()
-        if estimand and not isinstance(estimand, Crossing)
-    }
-    assert by_errors == {*LABELS}
+    own = {name for name in estimands if estimands[name]}
+    assert {name for name in own if not isinstance(estimands[name], Crossing)} == {*LABELS}
     assert isinstance(estimands["figure-1"], Remaining)
 
 

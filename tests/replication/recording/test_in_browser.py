@@ -12,17 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib import (
-    IMPROVED,
-    Controller,
-    EncoderShift,
-    HierarchicalLearner,
-    LinkShortening,
-    Plant,
-    Schedule,
-    apply,
-    train,
-)
+import recalib
 from recalib.nominal import pose_errors
 from replication.recording import script, typical_seed
 from replication.scenarios import Resolved
@@ -63,8 +53,8 @@ def in_node(written: Path, expression: str):
 
 
 def damaged(robot, damage):
-    short = [LinkShortening(*shortening) for shortening in zip(LINKS, damage, strict=False)]
-    return apply(robot, [*short, *map(EncoderShift, robot.joints, damage[4:])])
+    short = [recalib.LinkShortening(*shortening) for shortening in zip(LINKS, damage, strict=False)]
+    return recalib.apply(robot, [*short, *map(recalib.EncoderShift, robot.joints, damage[4:])])
 
 
 @needs_node
@@ -92,12 +82,12 @@ def test_the_kinematics_are_those_of_the_library(robot, controller, written):
 
 
 @pytest.fixture(scope="module")
-def narrow(robot, controller) -> Controller:
+def narrow(robot, controller) -> recalib.Controller:
     """That of a robot whose joints turn no farther than its workspace needs."""
     corners = robot.workspace.to_poses(np.array([*product((-1.0, 0.0, 1.0), repeat=6)]))
     angles = controller.inverse(corners)
     limits = {"lower": angles.min(axis=0) - 1e-6, "upper": angles.max(axis=0) + 1e-6}
-    return Controller(replace(robot, **limits))
+    return recalib.Controller(replace(robot, **limits))
 
 
 @needs_node
@@ -110,10 +100,10 @@ def test_every_measurement_of_a_training_is_that_of_the_library(name, request):
         f"Object.assign(STUDY.robot, {bounds}) && [...new Experiment(STUDY).train({LARGEST})]"
     )
     found = pd.DataFrame(in_node(STUDY, expression))
-    plant, training = Plant(controller, damaged(robot, LARGEST)), content(STUDY)
-    learner = HierarchicalLearner(IMPROVED, Schedule(**training.schedule))
+    plant, training = recalib.Plant(controller, damaged(robot, LARGEST)), content(STUDY)
+    learner = recalib.HierarchicalLearner(recalib.IMPROVED, recalib.Schedule(**training.schedule))
     poses, measure_at = map(np.array, (training.desired, training.tests)), range(0, 201, 4)
-    history = train(plant, learner, *poses, measure_at)
+    history = recalib.train(plant, learner, *poses, measure_at)
     assert len(found) == len(measure_at) == 51
     assert (history.refused[-1] > 0) == (name == "beyond limits")
     close(found["position"], 100 * history.position_error)
@@ -137,7 +127,10 @@ def test_an_identification_finds_the_damage_and_leaves_nothing(written):
 def test_what_is_written_is_the_recorded_training_and_what_is_shipped_the_studys(
     small, files, tmp_path, study, robot
 ):
-    entries = LinkShortening("wrist_1_link", 0.01), EncoderShift("elbow_joint", 0.02)
+    entries = (
+        recalib.LinkShortening("wrist_1_link", 0.01),
+        recalib.EncoderShift("elbow_joint", 0.02),
+    )
     resolved = Resolved.read(files.scenarios[0]).model_copy(update={"damages": entries})
     (tmp_path / "scenario.json").write_text(resolved.model_dump_json())
     text = script(small, tmp_path / "scenario.json", files.settings, files.histories[0])

@@ -39,12 +39,7 @@ from tests.conftest import ROOT, changed
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
 DH_D = 0.089159, 0, 0, 0.10915, 0.09465, 0.0823
 DH_TWIST = np.pi / 2, 0, 0, np.pi / 2, -np.pi / 2, 0
-MANUFACTURERS = arm_of_table(
-    [
-        Row(f"joint {number}", a=a, d=d, alpha=alpha)
-        for number, (a, d, alpha) in enumerate(zip(DH_A, DH_D, DH_TWIST, strict=True))
-    ]
-)
+MANUFACTURERS = arm_of_table([*map(Row, "123456", DH_A, DH_TWIST, DH_D)])
 # With it the manufacturer's arm gets to the nominal positions of the public tables, to 0.01 mm.
 TOOL_POINT = 0.0, 0.07e-3, 31e-3  # m
 
