@@ -13,7 +13,7 @@ from simulated_arm import Gears
 from simulated_camera import PicturedStation
 
 from recalib import DamagedArm, load_arm
-from recalib.vision.boards import read_board
+from recalib.vision import read_board
 
 HOME = np.array([0, 0.1, 0, -1.9, 0, 3.0, 0.8])  # rad; the flange shows the board to the camera
 STIFFNESS = 5e3  # N m/rad, of each gear: the arm droops by some millimetres

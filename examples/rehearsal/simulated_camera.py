@@ -10,9 +10,7 @@ import numpy as np
 from simulated_arm import Gears, PhysicsStation, placed
 
 from recalib.damaged.damage import DamagedArm
-from recalib.vision.boards import Board
-from recalib.vision.detection import Unusable, find_corners
-from recalib.vision.lenses import Lens
+from recalib.vision import Board, Lens, Unusable, find_corners
 
 FOCAL = 1100.0  # px, of a lens without distortion
 DETAIL = 20  # px of the texture to a module of the board

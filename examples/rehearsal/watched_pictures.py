@@ -17,10 +17,8 @@ from recalib import LiveSettings, calibrate_live, load_arm, load_shapes
 from recalib.nominal.descriptions import find_urdf
 from recalib.station.opening import open_station
 from recalib.station.pictures import BoardInPictures, PicturesOfABoard
-from recalib.vision.boards import Board, read_board
-from recalib.vision.detection import Corners
-from recalib.vision.lenses import Lens, read_lens
-from recalib.vision.views import Sighting, board_pose, reprojection
+from recalib.vision import Board, Corners, Lens, board_pose, read_board, read_lens
+from recalib.vision.views import Sighting, reprojection
 
 LONGER = 100  # times what a corner is off by: an arrow
 BESIDE = rrb.Blueprint(

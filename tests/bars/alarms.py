@@ -21,7 +21,7 @@ from recalib.identification.checks.sequence import JUMP, SLIP
 from recalib.laboratory.calibrate import Calibrated, calibrate
 from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.doubts import doubts
-from recalib.vision.detection import Corners
+from recalib.vision import Corners
 from tests.bars.stated import NAMED, TEXTS, Cell, Setup
 from tests.vision import rendering
 from tests.vision.sessions import NOISE, write_views

@@ -19,9 +19,8 @@ from recalib.identification.hand_eye import calibrate_hand_eye
 from recalib.identification.model.hand_eye_model import Sights
 from recalib.identification.model.linearisation import displacements
 from recalib.identification.model.optics import BOARD
-from recalib.vision.detection import find_corners
-from recalib.vision.lens_search import find_lens, moved_lens
-from recalib.vision.views import optics_of, projected, sighting
+from recalib.vision import find_corners, find_lens, optics_of, projected, sighting
+from recalib.vision.lens_search import moved_lens
 from tests.vision.hand_eye_cells import HandEyeCell
 from tests.vision.rendering import Cell
 

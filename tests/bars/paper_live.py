@@ -36,9 +36,7 @@ from recalib import (
 )
 from recalib.identification.calibration import calibrate
 from recalib.identification.model.error_model import ErrorModel
-from recalib.vision.boards import printable
-from recalib.vision.detection import find_corners
-from recalib.vision.views import board_pose
+from recalib.vision import board_pose, find_corners, printable
 from replication.config.shipped import OUTCOMES
 from replication.config.study import Study
 from replication.plots.palette import STYLES

@@ -18,9 +18,7 @@ from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.places import found_places
-from recalib.vision.detection import Corners, find_corners
-from recalib.vision.lens_search import find_lens
-from recalib.vision.views import optics_of, sighting
+from recalib.vision import Corners, find_corners, find_lens, optics_of, sighting
 from tests.vision.rendering import Cell
 
 PICTURES, FRESH, NOISE = 30, 200, 0.15  # px

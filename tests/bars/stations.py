@@ -4,9 +4,8 @@ import numpy as np
 
 from recalib.station.interface import cells_of
 from recalib.station.pictures import PICTURE, BoardInPictures
+from recalib.vision import Corners, find_lens
 from recalib.vision.boards import FEWEST
-from recalib.vision.detection import Corners
-from recalib.vision.lens_search import find_lens
 from tests.bars.pictures import NOISE
 from tests.vision.rendering import Cell
 

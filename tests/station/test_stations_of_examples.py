@@ -16,7 +16,7 @@ from watched_pictures import ShownPictures
 
 from recalib import StationFailed, load_arm
 from recalib.station import open_station
-from recalib.vision.views import projected
+from recalib.vision import projected
 from tests.conftest import ROOT
 from tests.logged import logged
 from tests.vision.hand_eye_cells import HandEyeCell

@@ -6,11 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.model.hand_eye_model import Sights
-from recalib.vision.boards import Board
-from recalib.vision.detection import Corners
-from recalib.vision.lens_search import find_lens
-from recalib.vision.lenses import Lens
-from recalib.vision.views import optics_of, projected, sighting
+from recalib.vision import Board, Corners, Lens, find_lens, optics_of, projected, sighting
 from tests.vision.rendering import ABOVE, BOARD, FIXED, IN_HAND, LENS, frame, photograph_of, placed
 
 NOISE = 0.15  # px

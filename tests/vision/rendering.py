@@ -6,9 +6,7 @@ import cv2
 import numpy as np
 
 from recalib import load_arm
-from recalib.vision.boards import Board, printable
-from recalib.vision.detection import Corners
-from recalib.vision.lenses import Lens
+from recalib.vision import Board, Corners, Lens, printable
 from tests.identification.real import Real
 
 BOARD = printable(7, 5, 0.036)

@@ -9,11 +9,7 @@ import numpy as np
 from recalib.files import write_new
 from recalib.laboratory.pictures.observed import Observed, Picture
 from recalib.laboratory.tables.table import read_table
-from recalib.vision.boards import printable
-from recalib.vision.detection import Corners
-from recalib.vision.lens_search import find_lens
-from recalib.vision.lenses import Lens
-from recalib.vision.views import board_pose
+from recalib.vision import Corners, Lens, board_pose, find_lens, printable
 from tests.vision.rendering import LENS, Cell, frame
 
 PICTURES, NOISE = 30, 0.15  # px

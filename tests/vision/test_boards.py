@@ -9,11 +9,16 @@ import yaml
 from pypdf import PdfReader
 
 from recalib import InvalidFile
-from recalib.vision.boards import Board, printable
-from recalib.vision.detection import Corners, Unusable, find_corners
-from recalib.vision.lenses import read_lens
-from recalib.vision.printing import draw_board
-from recalib.vision.views import board_pose
+from recalib.vision import (
+    Board,
+    Corners,
+    Unusable,
+    board_pose,
+    draw_board,
+    find_corners,
+    printable,
+    read_lens,
+)
 from tests.vision.rendering import LENS, frame
 
 DOTS = 100  # an inch, of Matplotlib's PNG

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib import InvalidFile, RecalibError, calibrate_arm, calibrate_pictures, load_arm
+from recalib import InvalidFile, RecalibError, calibrate_arm, calibrate_pictures, load_arm, vision
 from recalib.identification import WAYS
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures import observe as observing
@@ -22,7 +22,7 @@ from recalib.laboratory.pictures.observe import observe
 from recalib.laboratory.pictures.sessions import Session
 from recalib.laboratory.report.folder import hand_eye
 from recalib.laboratory.report.summary import verdict
-from recalib.vision.detection import Corners, find_corners
+from recalib.vision import Corners, find_corners
 from tests.bars.pictures import Draw
 from tests.conftest import few_folds
 from tests.vision.rendering import LENS, Cell
@@ -170,6 +170,7 @@ def test_a_lens_of_another_camera_leaves_more_than_one_of_these_pictures(take_pi
 
 def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, capsys):
     monkeypatch.delitem(sys.modules, "recalib.vision.boards")
+    monkeypatch.delitem(vars(vision), "printable", raising=False)
     monkeypatch.setitem(sys.modules, "cv2", None)
     assert main(["board", "--out", str(tmp_path / "board")]) == REFUSED
     assert "cv2 is missing; try: pip install" in capsys.readouterr().err

@@ -30,10 +30,7 @@ from recalib.laboratory.hand_eye.pose_checks import Mistaken, board_size, exchan
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.laboratory.pictures.observed import Observed, Picture
 from recalib.laboratory.tables.table import Table
-from recalib.vision.boards import Board
-from recalib.vision.detection import Corners
-from recalib.vision.lens_search import find_lens
-from recalib.vision.views import board_pose, projected
+from recalib.vision import Board, Corners, board_pose, find_lens, projected
 from tests.vision.hand_eye_cells import HandEyeCell, turned
 from tests.vision.rendering import Cell
 

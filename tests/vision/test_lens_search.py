@@ -10,12 +10,18 @@ from recalib import calibrate_pictures, load_arm
 from recalib.laboratory.pictures.sessions import read_folders
 from recalib.laboratory.report.summary import verdict
 from recalib.laboratory.tables.description import Description
-from recalib.vision import lens_search
-from recalib.vision.boards import printable
-from recalib.vision.detection import Corners, are_on_a_line, find_corners
-from recalib.vision.lens_search import find_lens, reprojection_error
-from recalib.vision.lenses import Lens, read_lens
-from recalib.vision.views import projected
+from recalib.vision import (
+    Corners,
+    Lens,
+    find_corners,
+    find_lens,
+    lens_search,
+    printable,
+    projected,
+    read_lens,
+)
+from recalib.vision.detection import are_on_a_line
+from recalib.vision.lens_search import reprojection_error
 from tests.conftest import few_folds
 from tests.vision.rendering import BOARD, LENS, Cell
 from tests.vision.sessions import write_views

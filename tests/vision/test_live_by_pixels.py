@@ -16,7 +16,7 @@ from recalib.laboratory.live.record import Record
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import SOON
 from recalib.station import BoardInPictures, PicturesOfABoard
-from recalib.vision.detection import Corners
+from recalib.vision import Corners
 from tests.bars.live import FINER, pictured
 from tests.vision.rendering import Cell
 

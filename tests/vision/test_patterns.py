@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from recalib import InvalidFile
-from recalib.vision.boards import Board, read_board
-from recalib.vision.detection import Unusable, find_corners
-from recalib.vision.views import board_pose, reprojection
+from recalib.vision import Board, Unusable, board_pose, find_corners, read_board
+from recalib.vision.views import reprojection
 from tests.vision.rendering import LENS, PAPER, frame, photograph
 from tests.vision.test_boards import BOARDS
 

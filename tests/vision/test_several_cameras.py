@@ -14,7 +14,7 @@ from recalib import RecalibError, calibrate_pictures
 from recalib.identification.model import displacements
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.report.summary import pixel_error, summary, verdict
-from recalib.vision.lenses import Lens, read_lens
+from recalib.vision import Lens, read_lens
 from tests.bars.pictures import Draw
 from tests.conftest import few_folds
 from tests.vision.rendering import LENS, Cell, frame

@@ -8,10 +8,9 @@ import pytest
 from PIL import ExifTags, Image
 
 from recalib.identification.model import displacements
-from recalib.vision.boards import printable
-from recalib.vision.detection import Unusable, find_corners, read_picture
-from recalib.vision.lenses import Lens
-from recalib.vision.views import board_pose, good_corners, optics_of, predicted_views, sighting
+from recalib.vision import Lens, Unusable, board_pose, find_corners, optics_of, printable, sighting
+from recalib.vision.detection import read_picture
+from recalib.vision.views import good_corners, predicted_views
 from tests.bars.pictures import NOISE
 from tests.vision.rendering import BOARD, LENS, Cell, frame
 
