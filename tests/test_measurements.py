@@ -69,9 +69,8 @@ def test_no_learner_takes_what_no_damage_explains(name, spoil, makers):
                 step / len(poses),
             )
 
-    with pytest.raises(
-        BadMeasurement, match=r"move 0 of run 0 .*; expected: (six|a pose that differs)"
-    ):
+    message = r"move 0 of run 0 .*; expected: (six|a pose that differs)"
+    with pytest.raises(BadMeasurement, match=message):
         learn()
 
 

@@ -63,7 +63,6 @@ def test_what_a_ball_in_sockets_leaves_open_no_other_postures_in_them_tell(panda
 
 
 ROWS, DROOP = 60, 2e-3  # rad, by which the links hang: no model here holds it
-LIMIT = 5e-3  # m
 DRILLING = urdf(
     ("turn", "revolute", "0 0 1", "0 0 0.4"),
     ("lift", "revolute", "0 1 0", "0.15 0 0"),
@@ -110,7 +109,7 @@ def test_the_length_of_a_tool_that_is_always_upright_stays_as_given(load, positi
     open_now = [one for one in unidentifiable_parameters(found, observations) if not one.lasting]
     assert open_now, "other postures would determine them"
     gaps = found.predict(others) - poses(others, (0, 0))
-    assert np.linalg.norm(gaps[:, :3, 3], axis=1).mean() < LIMIT
+    assert np.linalg.norm(gaps[:, :3, 3], axis=1).mean() < 5e-3  # m
 
 
 def test_rows_all_over_the_workspace_show_all_that_can_be_seen(ur10):

@@ -148,10 +148,8 @@ def test_a_target_that_was_seen_in_one_region_alone_is_learned_in_all_parts():
     assert len(np.unique(folds[targets == 0].reshape(4, 8), axis=1).T) == 1
     joints = np.random.default_rng(4).uniform(-1, 1, (40, 6))
     units = np.array([1024, 1, 1, 1 / 1024, 1, 1])  # powers of two, which round nothing
-    here, there = (
-        blocks(Observations(q, q[:, :3]), postures_of(q)) for q in (joints, joints * units)
-    )
-    assert np.array_equal(here, there)
+    both = joints, joints * units
+    assert np.array_equal(*(blocks(Observations(q, q[:, :3]), postures_of(q)) for q in both))
 
 
 @pytest.mark.parametrize("count", [16, 30])
@@ -183,9 +181,8 @@ def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(ur10):
     observations.measured[:, :3, 3] += shifts
     turn = Rotation.from_euler("x", 0.5, True).as_matrix()
     observations.measured[11, :3, :3] = turn @ observations.measured[11, :3, :3]
-    with pytest.raises(
-        Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows 12, ([0-9]+, ){3}"
-    ):
+    message = r"the best fit are [0-9.]+ mm .*rows 12, ([0-9]+, ){3}"
+    with pytest.raises(Untrustworthy, match=message):
         validate(ur10, observations, initial_frames(ur10, observations))
 
 

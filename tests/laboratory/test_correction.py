@@ -10,7 +10,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-import recalib
+from recalib import (
+    JOINT_ERRORS,
+    OFFSETS,
+    Correction,
+    InvalidFile,
+    NotReached,
+    Observations,
+    RecalibError,
+    load_arm,
+    load_correction,
+    position_error,
+)
 from recalib.files import write_archive
 from recalib.identification import calibrate
 from recalib.identification.model import Frames
@@ -26,12 +37,12 @@ HOME = np.array([0, 0.2, 0, -2, 0, 2.2, 0.8])
 @pytest.fixture(scope="module")
 def correction():
     """Of a seven-jointed arm with an offset and an eccentric gear."""
-    arm = recalib.load_arm("panda.urdf", "panda_hand_tcp")
+    arm = load_arm("panda.urdf", "panda_hand_tcp")
     joints = HOME + np.random.default_rng(6).uniform(-0.6, 0.6, (60, 7))
     bent = joints + 0.01 + 0.004 * np.sin(joints)
-    observations = recalib.Observations(joints, arm.forward(bent))
-    calibration = calibrate(arm, (recalib.OFFSETS, recalib.JOINT_ERRORS), observations)
-    return recalib.Correction(find_urdf("panda.urdf").read_bytes(), calibration, joints)
+    observations = Observations(joints, arm.forward(bent))
+    calibration = calibrate(arm, (OFFSETS, JOINT_ERRORS), observations)
+    return Correction(find_urdf("panda.urdf").read_bytes(), calibration, joints)
 
 
 def test_a_urdf_may_be_in_another_encoding(correction, tmp_path):
@@ -39,7 +50,7 @@ def test_a_urdf_may_be_in_another_encoding(correction, tmp_path):
     urdf = correction.urdf.replace(b"<robot", "<!-- Gerät --><robot".encode("latin-1"), 1)
     urdf = b'<?xml version="1.0" encoding="ISO-8859-1"?>' + urdf[urdf.index(b"?>") + 2 :]
     replace(correction, urdf=urdf).save(tmp_path / "correction.npz")
-    again = recalib.load_correction(tmp_path / "correction.npz")
+    again = load_correction(tmp_path / "correction.npz")
     assert again.urdf == urdf and again.arm.joints == correction.arm.joints
 
 
@@ -58,8 +69,8 @@ def test_postures_from_which_the_arm_approaches_are_in_the_frame_given(correctio
     """A target 120 mm ahead of the tool link is then nearly where the link is desired."""
     arm, joints, target, ahead = correction.arm, correction.learned, np.eye(4), np.eye(4)
     target[2, 3], ahead[2, 3] = 0.12, 0.1
-    observations = recalib.Observations(joints, arm.forward(joints + 0.01) @ target)
-    calibration = calibrate(arm, (recalib.OFFSETS,), observations, Frames(np.eye(4), target[None]))
+    observations = Observations(joints, arm.forward(joints + 0.01) @ target)
+    calibration = calibrate(arm, (OFFSETS,), observations, Frames(np.eye(4), target[None]))
     before = joints[:10]
     goals = calibration.forward(before) @ ahead
     ahead_of_tool = replace(correction, calibration=calibration)
@@ -85,18 +96,16 @@ def test_an_arm_of_four_joints_turns_its_tool_as_near_as_it_can(load, tmp_path, 
     arm, random = load(SCARA), np.random.default_rng(5)
     joints = random.uniform([-1, 0.3, 0, -2], [1, 1.8, 0.3, 2], (40, 4))
     offsets = np.array([0.01, 0.02, 0.003, -0.02])
-    observations = recalib.Observations(joints, arm.forward(joints + offsets))
-    calibration = calibrate(arm, (recalib.OFFSETS,), observations)
-    correction = recalib.Correction(SCARA.encode(), calibration, joints[35:])  # few to start from
+    observations = Observations(joints, arm.forward(joints + offsets))
+    calibration = calibrate(arm, (OFFSETS,), observations)
+    correction = Correction(SCARA.encode(), calibration, joints[35:])  # few to start from
     goals = calibration.forward(joints[:10])
     goals[:, :3, :3] @= Rotation.from_rotvec([0.003, 0, 0]).as_matrix()  # which no joint makes
     commands = correction.correct(goals, frame="base")
-    gaps = recalib.position_error(calibration.forward(commands.joints), goals)
+    gaps = position_error(calibration.forward(commands.joints), goals)
     assert gaps.max() < 1e-7 and np.allclose(commands.turned, 0.003, rtol=0.05)
     near = commands.joints[0] + np.eye(4)[2]
-    with pytest.raises(
-        recalib.NotReached, match="only with quill more than 90 deg, or 785 mm if prism"
-    ):
+    with pytest.raises(NotReached, match="only with quill more than 90 deg, or 785 mm if prism"):
         correction.command(goals[0], near, frame="base")
     correction.save(tmp_path / "correction.npz")
     rows = "shoulder [deg],elbow [deg],quill [mm],wrist [deg]\n9,60,-1900,9\n9,60,1900,9\n"
@@ -110,7 +119,7 @@ def test_an_arm_of_four_joints_turns_its_tool_as_near_as_it_can(load, tmp_path, 
 def test_the_distance_to_a_pose_out_of_reach_is_reported(correction, frame):
     far = np.diag([1.0, -1.0, -1.0, 1.0])
     far[0, 3] = 9.0
-    with pytest.raises(recalib.NotReached, match=r"found is 8\d\d\d mm and [\d.]+ deg away"):
+    with pytest.raises(NotReached, match=r"found is 8\d\d\d mm and [\d.]+ deg away"):
         correction.correct(far, frame=frame)
 
 
@@ -130,7 +139,7 @@ def test_the_distance_to_a_pose_out_of_reach_is_reported(correction, frame):
     ],
 )
 def test_wrong_arrays_are_refused_with_what_was_expected(poses, options, message, correction):
-    with pytest.raises(recalib.RecalibError, match=message):
+    with pytest.raises(RecalibError, match=message):
         correction.correct(poses, **options)
 
 
@@ -169,8 +178,8 @@ def test_parts_that_do_not_belong_together_are_refused(name, change, small, tmp_
     del header["sha256"]
     arrays[name] = change(arrays[name])
     write_archive(path, header, arrays)
-    with pytest.raises(recalib.InvalidFile):
-        recalib.load_correction(path)
+    with pytest.raises(InvalidFile):
+        load_correction(path)
 
 
 @settings(max_examples=60)
@@ -194,11 +203,9 @@ def test_a_file_that_was_tampered_with_ends_in_a_sentence(small, data):
 def small(arm, folder):
     """The file of a correction of a small arm, with a pattern in the residuals."""
     joints = postures(3, 60)
-    observations = recalib.Observations(
-        joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints))
-    )
-    calibration = calibrate(arm, (recalib.OFFSETS,), observations)
+    observations = Observations(joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints)))
+    calibration = calibrate(arm, (OFFSETS,), observations)
     assert calibration.pattern is not None
     urdf = (folder / "arm.urdf").read_bytes()
-    recalib.Correction(urdf, calibration, joints).save(folder / "small.npz")
+    Correction(urdf, calibration, joints).save(folder / "small.npz")
     return (folder / "small.npz").read_bytes()

@@ -7,9 +7,7 @@ from recalib import IMPROVED, HierarchicalLearner, Outcome, Rules, Schedule
 from recalib.learners import regular_grid
 from tests.reference import SlowMap, cycle
 
-SINGLE_WIDTHS = {"pose": (0.5, 0.8)}
-SEPARATE_WIDTHS = {"position": (0.4, 0.9), "orientation": (1.1, 0.3)}
-WIDTHS = {False: SINGLE_WIDTHS, True: SEPARATE_WIDTHS}
+WIDTHS = {False: {"pose": (0.5, 0.8)}, True: {"position": (0.4, 0.9), "orientation": (1.1, 0.3)}}
 SIZES = {"supernet": (2, 3, 1), "subnet": (1, 2, 2)}
 
 

@@ -3,7 +3,20 @@
 import numpy as np
 import pytest
 
-import recalib
+from recalib import (
+    Controller,
+    EccentricGear,
+    EncoderShift,
+    GaussianProcessLearner,
+    GeometricLearner,
+    LinkShortening,
+    Outcome,
+    Plant,
+    UnknownName,
+    apply,
+    load_robot,
+    train,
+)
 from recalib.learners import KINDS
 from recalib.loop import measure
 from replication.training import make_peer
@@ -40,13 +53,13 @@ def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
     kind, makers, controller, damaged
 ):
     """Also next to a run whose moves are refused; a learner of today moves once."""
-    plant, own, sent = recalib.Plant(controller, damaged), recalib.Plant(controller, damaged), []
+    plant, own, sent = Plant(controller, damaged), Plant(controller, damaged), []
     together, alone = makers[kind](runs=2), makers[kind](runs=1)
 
     def refuse_the_first(commands):
         sent.append(commands.shape)
         outcome = plant.execute(commands)
-        return recalib.Outcome(outcome.achieved, outcome.executed & np.array([[False], [True]]))
+        return Outcome(outcome.achieved, outcome.executed & np.array([[False], [True]]))
 
     for move in range(3):
         together.learn(DESIRED[:, move], refuse_the_first, move / 40)
@@ -69,7 +82,7 @@ def test_a_run_learns_as_if_it_were_alone_and_nothing_of_refused_moves(
     ],
 )
 def test_errors_fall(name, moves, position, orientation, robot, controller, damaged):
-    plant = recalib.Plant(controller, damaged)
+    plant = Plant(controller, damaged)
     before = errors(make_peer(name, RUNS, robot), plant)
     after = errors(trained(make_peer(name, RUNS, robot), plant, moves), plant)
     assert after[0] < min(position, before[0] / 3)
@@ -77,14 +90,11 @@ def test_errors_fall(name, moves, position, orientation, robot, controller, dama
 
 
 def test_the_hybrid_learns_what_no_geometry_explains(controller, robot):
-    arm = recalib.apply(
+    arm = apply(
         robot,
-        [
-            recalib.EccentricGear(joint, np.radians(0.5), phase)
-            for phase, joint in enumerate(robot.joints)
-        ],
+        [EccentricGear(joint, np.radians(0.5), phase) for phase, joint in enumerate(robot.joints)],
     )
-    plant = recalib.Plant(controller, arm)
+    plant = Plant(controller, arm)
     geometric, hybrid = (
         errors(trained(make_peer(name, RUNS, robot), plant, 16), plant)
         for name in ("geometric", "hybrid")
@@ -94,9 +104,9 @@ def test_the_hybrid_learns_what_no_geometry_explains(controller, robot):
 
 
 DAMAGES = (
-    recalib.LinkShortening("panda_link4", 0.03),
-    recalib.EncoderShift("panda_joint3", np.radians(4)),
-    recalib.EncoderShift("panda_joint6", np.radians(-3)),
+    LinkShortening("panda_link4", 0.03),
+    EncoderShift("panda_joint3", np.radians(4)),
+    EncoderShift("panda_joint6", np.radians(-3)),
 )
 
 
@@ -104,7 +114,7 @@ def remaining(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
     """The shares of both initial errors that remain, averaged over runs."""
     random, workspace = np.random.default_rng(5), plant.workspace
     poses = workspace.sample(random, runs, iterations), workspace.sample(random, runs, 50)
-    history = recalib.train(plant, learner, *poses, [0, iterations])
+    history = train(plant, learner, *poses, [0, iterations])
     errors = np.stack([history.position[..., 0], history.orientation[..., 0]])
     return (errors[..., -1] / errors[..., 0]).mean(axis=-1)
 
@@ -113,12 +123,12 @@ def remaining(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
     ("make", "iterations", "most"),
     [
         (lambda controller: improved(runs=2), 100, 0.15),
-        (lambda controller: recalib.GaussianProcessLearner(runs=2), 60, 0.02),
-        (lambda controller: recalib.GeometricLearner(controller, runs=2), 12, 1e-6),
+        (lambda controller: GaussianProcessLearner(runs=2), 60, 0.02),
+        (lambda controller: GeometricLearner(controller, runs=2), 12, 1e-6),
     ],
 )
 def test_a_learner_recalibrates_seven_joints(make, iterations, most, redundant):
-    plant = recalib.Plant(redundant, recalib.apply(redundant.robot, DAMAGES))
+    plant = Plant(redundant, apply(redundant.robot, DAMAGES))
     assert np.all(remaining(make(redundant), plant, iterations) < most)
 
 
@@ -126,11 +136,11 @@ def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_pat
     (path := tmp_path / "railed.urdf").write_text(RAILED)
     home = {"pan": 0.3, "lift": -0.8, "elbow": 1.4, "bend": -0.4, "twist": 1.1, "turn": 0.5}
     sides = [0.2, 0.2, 0.2], np.radians([20, 20, 20])
-    robot = recalib.load_robot(path, "link_7", {"rail": 0.2} | home, *sides)
-    controller = recalib.Controller(robot)
+    robot = load_robot(path, "link_7", {"rail": 0.2} | home, *sides)
+    controller = Controller(robot)
     slid = controller.targets(robot.workspace.sample(np.random.default_rng(4), 1, 20)).angles
     assert np.ptp(slid[..., 0]) > 0.02  # m
-    plant = recalib.Plant(controller, recalib.apply(robot, [recalib.EncoderShift("elbow", 0.05)]))
-    assert np.all(remaining(recalib.GeometricLearner(controller, runs=2), plant, 12) < 1e-6)
-    with pytest.raises(recalib.UnknownName, match="unknown turning joint 'rail'; expected: bend"):
-        recalib.apply(robot, [recalib.EncoderShift("rail", 0.05)])
+    plant = Plant(controller, apply(robot, [EncoderShift("elbow", 0.05)]))
+    assert np.all(remaining(GeometricLearner(controller, runs=2), plant, 12) < 1e-6)
+    with pytest.raises(UnknownName, match="unknown turning joint 'rail'; expected: bend"):
+        apply(robot, [EncoderShift("rail", 0.05)])

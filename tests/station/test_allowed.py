@@ -57,9 +57,8 @@ def test_links_and_tool_stay_above_the_floor_also_on_the_way(name):
 
 
 def test_all_links_beyond_the_second_and_the_tool_keep_off_the_floor():
-    arm, home = load_arm(*URDFS["UR5"]), np.array(HOMES["UR5"], dtype=float)
-    shapes, _ = load_shapes(arm, URDFS["UR5"][0])
-    pairs = Clearance(arm, home, shapes, 0.0, False, 0.0).pairs
+    arm, shapes, postures = allowed("UR5")
+    pairs = Clearance(arm, postures.home, shapes, 0.0, False, 0.0).pairs
     beyond = {shape.name for shape in shapes.geometryObjects if shape.parentJoint > 2}
     assert {link for link, other in pairs if other == FLOOR} == beyond | {TOOL}
 

@@ -94,12 +94,9 @@ def test_results_without_notes_and_folders_that_are_read_only_are_refused(
         check_writable(new)
 
 
-WORKING = "print('at work', flush=True); import time; time.sleep(600)"
-
-
 def test_a_job_ends_at_once_and_without_a_word():
     process = subprocess.Popen(
-        [sys.executable, "-c", WORKING],
+        [sys.executable, "-c", "print('at work', flush=True); import time; time.sleep(600)"],
         env=os.environ | {"PYTHONPATH": str(ROOT / "workflow" / "start")},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -57,9 +57,8 @@ def test_a_study_that_is_like_another_one_says_what_it_changes(
 def test_a_study_that_is_like_none_there_is_is_refused_by_its_place(with_studies, like):
     path = with_studies / "mine.yaml"
     path.write_text(f"robot: ur5\nlike: {like}\n", encoding="utf-8")
-    with pytest.raises(
-        InvalidConfiguration, match=r"mine.yaml:2:1: like is .*; expected: (one of )?bent, co"
-    ):
+    message = r"mine.yaml:2:1: like is .*; expected: (one of )?bent, co"
+    with pytest.raises(InvalidConfiguration, match=message):
         of_call(with_studies, path)
 
 

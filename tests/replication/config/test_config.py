@@ -104,11 +104,8 @@ def test_of_many_mistakes_the_first_are_shown(here):
     assert keys == ["sede", "controller.greatest_condition", "search.trials"]
 
 
-def test_the_shipped_robots_can_do_what_is_asked_of_them(study):
+def test_shipped_robots_can_do_what_is_asked_and_a_redundant_arm_is_asked_for_no_evidence(study):
     assert check_robots(study) == []
-
-
-def test_a_redundant_arm_is_asked_for_no_evidence():
     study = read_study(SHIPPED, ROOT / "workflow" / "studies" / "panda.yaml")
     assert check_robots(study) == []
     (mistake,) = check_robots(with_keys(study, experiments={"evidence": True}))

@@ -16,15 +16,12 @@ def entry_of(row) -> dict:
     """A row of the table as an entry of `robots`."""
     arm = load_arm(row["urdf"], row["tool"])
     limits = np.clip([arm.model.lowerPositionLimit, arm.model.upperPositionLimit], -3, 3)
-    middle = np.degrees(limits.mean(axis=0))
+    home = row.get("home", np.degrees(limits.mean(axis=0)))
     *position, orientation = row.get("workspace", (10, 12, 10, 20))
     return {
         "urdf": row["urdf"],
         "tool": row["tool"],
-        "home": {
-            joint: f"{angle} deg"
-            for joint, angle in zip(arm.joints, row.get("home", middle), strict=True)
-        },
+        "home": {joint: f"{angle} deg" for joint, angle in zip(arm.joints, home, strict=True)},
         "workspace": {
             "position": [f"{side} cm" for side in position],
             "orientation": [f"{orientation} deg"] * 3,
@@ -69,8 +66,6 @@ def test_links_of_ones_own_are_asked_of_the_papers_damage_alone_where_it_is_used
     fall = {"fall": [{"encoder": "panda_joint4", "shift": "3 deg"}]}
     plan = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
     assert with_arm(tmp_path, entry, **plan).scenario == "fall"
-    with pytest.raises(
-        InvalidConfiguration,
-        match="list of 3; expected: at most 1, one for each of robots.mine.links",
-    ):
+    message = "list of 3; expected: at most 1, one for each of robots.mine.links"
+    with pytest.raises(InvalidConfiguration, match=message):
         with_arm(tmp_path, entry)

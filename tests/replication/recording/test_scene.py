@@ -115,7 +115,7 @@ def test_the_tool_goes_on_from_the_arm_and_fits_into_the_desired_pose(columns, r
 
 def test_damaged_links_joints_and_base_are_yellow(columns):
     """A shortened forearm, a shifted elbow, a sagging shoulder, and a base 2.2 cm off."""
-    yellow = rgba(colours.DAMAGE)
+    yellow = int.from_bytes([*colours.DAMAGE, 255], "big")
     for joint, link in (("elbow_joint", "forearm_link"), ("shoulder_lift_joint", "upper_arm_link")):
         entity = f"/improved/damage/{joint}"
         assert columns(entity, "CoordinateFrame:frame")[1][0] == [f"improved/{link}"]
@@ -129,11 +129,6 @@ def test_damaged_links_joints_and_base_are_yellow(columns):
     assert shades[labels.index("damage")] == yellow
     (circle,) = columns("/improved/damage/base", "LineStrips3D:strips")[1][0]
     assert np.mean(circle[:-1], axis=0) == close([0.01, 0, -0.02], abs=1e-6)
-
-
-def rgba(colour) -> int:
-    red, green, blue = colour
-    return (red << 24) + (green << 16) + (blue << 8) + 255
 
 
 def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(columns, robot, poses):
