@@ -1,6 +1,6 @@
-from .compiled import JACOBIAN as JACOBIAN
-from .compiled import THETA as THETA
-from .compiled import WAITING as WAITING
+from .cell_loops import JACOBIAN as JACOBIAN
+from .cell_loops import THETA as THETA
+from .cell_loops import WAITING as WAITING
 from .geometric import angles_for as angles_for
 from .kinds import KINDS as KINDS
 from .kinds import class_of as class_of

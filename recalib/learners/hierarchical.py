@@ -8,8 +8,8 @@ import numpy as np
 
 from recalib.arrays import array_of
 from recalib.errors import check_function, check_kind
-from recalib.learners import compiled
-from recalib.learners.compiled import JACOBIAN, THETA, WAITING, Cells
+from recalib.learners import cell_loops
+from recalib.learners.cell_loops import JACOBIAN, THETA, WAITING, Cells
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
@@ -35,7 +35,7 @@ class HierarchicalLearner:
 
     Attributes:
         nets: the centres of the cells, the same in all maps.
-        cells: their contents, without pending updates: see `recalib.learners.compiled`.
+        cells: their contents, without pending updates: see `recalib.learners.cell_loops`.
 
     Raises InvalidSetting if the schedule has other maps than the rules, or another number of runs.
     """
@@ -86,7 +86,7 @@ class HierarchicalLearner:
         """
         desired = array_of("desired", desired, (self._runs, "n", 6))
         self._settle()
-        return compiled.commands(tuple(self.cells), desired)
+        return cell_loops.commands(tuple(self.cells), desired)
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.
@@ -100,16 +100,16 @@ class HierarchicalLearner:
         if self._waiting == WAITING:
             self._settle()
         cells = tuple(self.cells), self._waiting, self._increments
-        command, winners, theta, jacobian = compiled.respond(*cells, desired)
+        command, winners, theta, jacobian = cell_loops.respond(*cells, desired)
         sent = command[:, None]
         first = execute(sent)
         last = check_moves(sent, first.achieved, first.executed)
-        correction = compiled.corrections(jacobian, desired, first.achieved)
+        correction = cell_loops.corrections(jacobian, desired, first.achieved)
         sent = (command + correction)[:, None]
         second = execute(sent)
         check_moves(sent, second.achieved, second.executed, last)
         response, falls = (winners, theta, jacobian, correction), (self._widths, self._rate)
-        compiled.learn(*cells, *response, *first, *second, self._metric, *falls, fraction)
+        cell_loops.learn(*cells, *response, *first, *second, self._metric, *falls, fraction)
         self._waiting += 1
 
     def _settle(self) -> None:
@@ -181,7 +181,7 @@ def _apply(
     """Add increments to cells (K, L, n), (7) and (9), or draw them to values, (4) and (5)."""
     if increments:
         weighted = rate[:, None] * g_k
-        values += (weighted.T @ compiled.spread_over(g_kl, star)).reshape(values.shape)
+        values += (weighted.T @ cell_loops.spread_over(g_kl, star)).reshape(values.shape)
     else:
-        weights, remaining = compiled.lasting(rate, g_k, g_kl)
-        compiled.draw(values, remaining, weights.T @ star)
+        weights, remaining = cell_loops.lasting(rate, g_k, g_kl)
+        cell_loops.draw(values, remaining, weights.T @ star)

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from recalib.learners import compiled
+from recalib.learners import cell_loops
 from recalib.nominal.workspace import ORIENTATION, POSITION
 
 # "A regular grid covering" the workspace (section 3): along each coordinate in [-1, 1], the middles
@@ -30,7 +30,7 @@ def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
 
 def nearest(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Index (...) of the nearest of the centres (cells, d) to each of the points (..., d)."""
-    found = compiled.nearest_of(points.reshape(-1, points.shape[-1]), centres)
+    found = cell_loops.nearest_of(points.reshape(-1, points.shape[-1]), centres)
     return found.reshape(points.shape[:-1])
 
 

@@ -9,7 +9,7 @@ from scipy.special import softmax
 
 from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_function, check_kind
-from recalib.learners import compiled
+from recalib.learners import cell_loops
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
@@ -99,7 +99,9 @@ class RadialLearner:
             if not self.rules.theta_increments:
                 star = winner[:, outputs] + star
             theta = self.theta[..., outputs]
-            compiled.propagate(theta, rate[:, None] * g_k, g_kl, star, self.rules.theta_increments)
+            cell_loops.propagate(
+                theta, rate[:, None] * g_k, g_kl, star, self.rules.theta_increments
+            )
 
     def _shares(self, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """phi divided by its sum (run, pose, cell), in one net, for points (run, pose, 3)."""

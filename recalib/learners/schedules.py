@@ -18,7 +18,7 @@ import numpy as np
 
 from recalib.arrays import array_of
 from recalib.errors import InvalidSetting, check_kind, check_runs
-from recalib.learners.compiled import fall as fall
+from recalib.learners.cell_loops import fall as fall
 
 EXPONENTIAL, LINEAR = 0.0, 1.0  # powers
 RATES = {"linear": LINEAR, "exponential": EXPONENTIAL}

@@ -5,7 +5,7 @@ from unittest import mock
 import pandas as pd
 import pytest
 
-from recalib.learners import compiled
+from recalib.learners import cell_loops
 from replication.judgement import check, expect, summarise
 from replication.running import write
 from replication.scenarios import resolve
@@ -33,15 +33,15 @@ def errors(study, tmp_path_factory):
     return trained
 
 
-def nothing_propagated(cells, waiting, *others, learn=compiled.learn):
+def nothing_propagated(cells, waiting, *others, learn=cell_loops.learn):
     """Zeros are propagated in place of increments of Jacobians."""
     learn(cells, waiting, *others)
-    compiled.Cells(*cells).jacobian_star[:, :, waiting] = 0
+    cell_loops.Cells(*cells).jacobian_star[:, :, waiting] = 0
 
 
 def test_the_check_is_green_with_other_seeds_and_red_with_an_error_in_the_rules(study, errors):
     bands = expect(errors())
     assert check(errors(study.seed + 1), bands)["ok"].all()
-    with mock.patch.object(compiled, "learn", nothing_propagated):
+    with mock.patch.object(cell_loops, "learn", nothing_propagated):
         table = check(errors(), bands)
     assert not table.loc[table["learner"] == "improved", "ok"].all()
