@@ -1,5 +1,5 @@
-// A damaged robot with the controller of the intact robot, as in recalib.nominal.poses and
-// recalib.damaged. Commands and achieved poses are coordinates u of the workspace, in [-1, 1]^6.
+// A damaged robot with the controller of the intact robot, as in recalib.nominal.workspace
+// and recalib.damaged. Commands and achieved poses are coordinates u of the workspace, in [-1, 1]^6.
 
 class Workspace {
   constructor(centre, halfRanges) {
