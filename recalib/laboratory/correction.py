@@ -29,14 +29,14 @@ from recalib.laboratory.reaching import Goals, NotReached, poses_at, reach_all
 from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.workspace import orientation_error
-from recalib.spelling import listed
+from recalib.spelling import counted, listed
 
 FORMAT, WRITER = ("recalib correction", 4), "recalib calibrate"
 NAME = "correction.npz"  # of the file in the folder of a calibration
 BASE, INSTRUMENT = FRAMES = "base", "instrument"  # of desired poses
 NEAR = 0.05  # m between a desired pose and the arm's pose at the joints given with it
 BETTER = 0.1  # the fraction of this distance that remains if the poses are in the other frame
-STEP = np.pi / 2  # rad: a command farther from the last one would swing the arm
+STEP = np.pi / 2  # rad: a larger turn from the last command would swing the arm
 MARGIN = 0.05  # at either end of the measured range, as a fraction of this range
 
 
@@ -118,8 +118,8 @@ class Correction:
 
     def command(
         self,
-        pose: np.ndarray,
-        near: np.ndarray,
+        pose: ArrayLike,
+        near: ArrayLike | None,
         target: str | None = None,
         frame: str | None = None,
     ) -> np.ndarray:
@@ -127,13 +127,17 @@ class Correction:
 
         Args:
             pose: (4, 4), or a position (3,) [m] if the rotation is free.
-            near: (joints,) rad, m, such as the last command: the solution stays on its branch.
+            near: (joints,) rad, m, such as the last command: the solution stays on its branch. If
+                None, the measured postures nearest to the pose are the starts, and no turn is
+                refused.
             target, frame: see `correct`.
 
-        Raises like `correct`, and NotReached if a joint would turn by more than 90 degrees, or
-        slide by more than 785 mm, from `near`, as at a singularity.
+        Raises like `correct`, and NotReached if a joint would turn by more than 90 degrees from
+        `near`, or slide by more than 785 mm, as can happen at a singularity.
         """
         goals = self._goals(pose, near, target, frame)
+        if len(goals) != 1:
+            raise InvalidSetting("pose", counted(len(goals), "pose"), "one; try: correct")
         (found,) = reach_all(self.calibration, self.postures, goals)
         start, coupling = found if goals.postures is None else goals.postures[0], self.arm.coupling
         turns = np.abs(found - start) / np.where(coupling.slides, LEVER, 1.0)

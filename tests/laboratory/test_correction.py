@@ -143,6 +143,12 @@ def test_wrong_arrays_are_refused_with_what_was_expected(poses, options, message
         correction.correct(poses, **options)
 
 
+@pytest.mark.parametrize("poses", [np.eye(3), np.tile(np.eye(4), (2, 1, 1)), np.zeros((0, 3))])
+def test_a_command_is_for_one_pose(poses, correction):
+    with pytest.raises(RecalibError, match=f"pose is '{len(poses)} poses'; expected: one; try: c"):
+        correction.command(poses, None)
+
+
 def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correction):
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     outside = correction.learned[:4].copy()
