@@ -76,5 +76,5 @@ class RosArm:
         return image if 10**9 * stamp.sec + stamp.nanosec > since else None
 
     def stop(self) -> None:
-        if accepting := self._latest.get(ActionClient):  # or accepted
+        if accepting := self._latest.get(ActionClient):
             accepting.add_done_callback(lambda sent: sent.result().cancel_goal_async())

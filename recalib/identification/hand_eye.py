@@ -167,8 +167,8 @@ def _with_smooth_errors(found: HandEye) -> HandEye:
     displacements of both frames, with turns times LEVER, and B maps them to what is in the frames.
     f_i is the flange's position over LEVER and its rotation matrix over sqrt(2), so that small
     turns count in rad. s and a factor of the noise's covariances C_i maximise the restricted
-    likelihood, if Akaike's criterion prefers s > 0. P sum A_i' C_i^-1 A_i B d_i, with P the
-    covariance without d_i, is the error that is added.
+    likelihood, if Akaike's criterion prefers s > 0. The covariance of P sum A_i' C_i^-1 A_i B d_i,
+    the error of x that d_i cause, is added to P, the covariance without d_i.
     """
     residuals, slopes, _ = LinearHandEye(found).whitened()
     flange, rows = found.sights.flange, slopes.reshape(residuals.size, -1)

@@ -1,4 +1,4 @@
-"""What the commands import at its first use: it is slow to import, or needs an optional package."""
+"""Names imported at their first use: each is slow to import, or needs an optional package."""
 
 from . import commands as commands
 from .hand_eye.calibrating import calibrate_poses as calibrate_poses

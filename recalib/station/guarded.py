@@ -34,7 +34,7 @@ class Guarded:
     """The station that `opening` makes, with its joints in the order of the nominal arm.
 
     All calls except a stop come from one thread, which also opens the station, since drivers and
-    graphics may be bound to a thread. After `stop`, the station is not called again.
+    graphics may be bound to a thread. After `stop`, the station is only stopped again or closed.
 
     The constructor and all methods that call the station raise StationFailed, with its mistake.
     """

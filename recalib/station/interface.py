@@ -16,7 +16,7 @@ class StationFailed(RecalibError):
 
 
 class Pictures(Protocol):
-    """What reads pictures as poses of a board; `BoardInPictures` does, which needs OpenCV."""
+    """A reader of pictures as poses of a board, such as `BoardInPictures`, which needs OpenCV."""
 
     tool_radius: float
 

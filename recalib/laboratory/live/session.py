@@ -174,7 +174,7 @@ def calibrate_live(
         if station is not None:
             try:
                 station.stop()
-            except KeyboardInterrupt:  # as a closed terminal is also an error of reading
+            except KeyboardInterrupt:  # a terminal that closes fails first, then sends a signal
                 station.stop()
         if len(record):
             on_progress(
