@@ -69,10 +69,12 @@ def calibrate_poses(options: Options) -> int:
         raise InvalidSetting("--pictures", options.pictures, "a folder, or --targets and a table")
     inverse, in_hand = options.inverse or (), options.camera == IN_HAND
     flange = read_poses(options.poses, options.convention, options.unit, "flange" in inverse)
-    settings = options.target_convention, options.unit, "targets" in inverse, True
-    targets = options.targets and read_poses(options.targets, *settings)
-    given = options.pictures, options.board, options.lens, in_hand, print_progress
-    shown = targets or laboratory.pictures_at(flange, *given)
+    if options.targets is None:
+        given = options.pictures, options.board, options.lens, in_hand, print_progress
+        shown: Any = laboratory.pictures_at(flange, *given)
+    else:
+        settings = options.target_convention, options.unit, "targets" in inverse, True
+        shown = read_poses(options.targets, *settings)
     height = options.height and within("--height", options.height, LENGTH, 1e-4)
     files, good = laboratory.calibrate_poses(flange, shown, in_hand, height, print_progress)
     return _written(options.out, files, good)

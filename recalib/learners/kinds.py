@@ -20,13 +20,13 @@ class Kind(NamedTuple):
     """A kind of learner that can be saved to files.
 
     Attributes:
-        made_by: its class.
+        learner: its class.
         peers: settings for comparisons with the paper's learners, by the name of each comparison.
         needs: the information that it needs. Classes that know the kinematics also have the method
             `identify`: see `GeometricLearner.identify`.
     """
 
-    made_by: type[Savable]
+    learner: type[Savable]
     peers: Mapping[str, Mapping[str, Any]] = {}
     needs: str = POSES
 
@@ -46,7 +46,7 @@ KINDS = {
 def kind_of(learner: object) -> str:
     """The kind of a learner. Raises UnknownName."""
     for name, kind in KINDS.items():
-        if type(learner) is kind.made_by:
+        if type(learner) is kind.learner:
             return name
     raise UnknownName("kind of learner to save", type(learner).__name__, KINDS)
 
@@ -54,4 +54,4 @@ def kind_of(learner: object) -> str:
 def class_of(kind: str) -> type[Savable]:
     """The class of a kind. Raises UnknownName."""
     check_name("kind of learner", kind, KINDS)
-    return KINDS[kind].made_by
+    return KINDS[kind].learner

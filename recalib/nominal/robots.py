@@ -105,7 +105,7 @@ def load_robot(
     """
     path, limits = find_urdf(urdf), {} if limits is None else limits
     array_of("beyond", beyond, ())
-    check_kind("name", "" if name is None else name, str)
+    check_kind("name", name, str, type(None))
     arm = load_arm(path, tool)
     end = arm.end.placement.translation
     end += beyond * _outward(arm)

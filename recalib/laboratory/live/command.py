@@ -4,6 +4,7 @@ import argparse
 import signal
 import sys
 import termios
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -25,6 +26,7 @@ from recalib.station.opening import open_station
 
 # A closed terminal, a kill, and a suspension to the background must stop the arm, too.
 STOPPING = signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP
+TOGETHER = 1.0  # s: signals that come so soon after one another count as one
 ANSWERS = {"": Answer.MOVE, "s": Answer.SKIP}  # any other, such as q, ends the session
 TURNED = 0.05  # deg, mm: a joint that moves less is not listed
 
@@ -42,7 +44,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
         raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
     if given.board is None and (given.lens or given.camera):
         raise InvalidSetting("--board", None, "a board for --lens and --camera")
-    if given.board and given.lens is None:
+    if given.board is not None and given.lens is None:
         raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
     opening: Callable[[], Station] = partial(open_station, given.station)
     pictures: Pictures | None = None
@@ -70,15 +72,18 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
 
 @contextmanager
 def _signals_that_stop() -> Iterator[None]:
-    """Let the first signal that ends or suspends the program raise KeyboardInterrupt.
+    """Let signals that end or suspend the program raise KeyboardInterrupt: it stops the station.
 
-    It stops the station. Later signals are ignored, so that they do not interrupt the stop.
+    Signals within a second count as one, so that they do not interrupt the stop. Later ones count
+    again, because Python loses an interrupt that is raised while it collects garbage.
     """
+    last = -TOGETHER
 
     def interrupt(*_: object) -> None:
-        for number in STOPPING:
-            signal.signal(number, signal.SIG_IGN)
-        raise KeyboardInterrupt
+        nonlocal last
+        if time.monotonic() - last > TOGETHER:
+            last = time.monotonic()
+            raise KeyboardInterrupt
 
     before = {number: signal.signal(number, interrupt) for number in STOPPING}
     try:
