@@ -9,16 +9,15 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import orth
 from scipy.optimize import minimize
-from scipy.spatial.distance import cdist
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.closed_forms import solutions
 from recalib.identification.model.frames import nearest_rotation
 from recalib.identification.model.hand_eye_model import ENDS, HandEye, LinearHandEye, Sights
-from recalib.identification.model.linearisation import LEVER, displaced
+from recalib.identification.model.linearisation import displaced
 from recalib.identification.model.observations import Observations
+from recalib.identification.smooth_errors import with_smooth_errors
 
 # Steps of a fit; rounds of noise and weights; the step [m, rad] at which a fit has converged.
 STEPS, ROUNDS, SMALL = 40, 20, 1e-8
@@ -27,13 +26,6 @@ FAR = 16.8  # the 99 % quantile of chi-square with 6 degrees of freedom; beyond 
 SETTLED = 0.01  # the largest change of weights at convergence
 FINEST, COARSEST = 1e-7, 1.0  # m, rad: bounds on the accuracy of any arm
 FOLDS = 30
-# How slowly smooth errors vary. Simulated UR5, UR10 and Panda determine it: the likelihood cannot,
-# since camera and board absorb what is common to all poses, which is most of such errors.
-SLOWLY = 4.0
-SIZES = np.concatenate([[0.0], np.geomspace(FINEST, COARSEST, 71)])  # m
-AKAIKE = 2.0  # by how much -2 log(likelihood) must fall for smooth errors to count
-SOME = 200  # poses at which such errors are described; in between they are interpolated
-NEGLIGIBLE = 1e-4  # of the largest eigenvalue
 EQUAL = 0.05  # rad: angles that may be the same
 TURNS = 24  # starting angles about the only axis
 OPEN = 1e-3  # of the largest singular value: smaller ones leave a direction undetermined
@@ -48,7 +40,7 @@ def calibrate_hand_eye(sights: Sights) -> HandEye:
         found = _weighed(_moved_to_best(_with_noise(found)))
         if np.abs(found.weights - before).max() < SETTLED:
             break
-    return _with_smooth_errors(found)
+    return with_smooth_errors(found)
 
 
 def upended(flange: np.ndarray, board: np.ndarray) -> np.ndarray:
@@ -155,49 +147,6 @@ def _with_noise(found: HandEye) -> HandEye:
     )
     accuracy, noise = split(best.x)
     return replace(found, accuracy=accuracy, noise=noise)
-
-
-def _with_smooth_errors(found: HandEye) -> HandEye:
-    """The same, with a covariance that allows for errors that vary smoothly with the pose.
-
-    Offsets of joints and wrong lengths of links act as if base and flange moved with the pose:
-
-        r_i = A_i (x + B d_i) + e_i,    cov(d_i, d_j) = s^2 exp(-|f_i - f_j|^2 / (2 SLOWLY^2)) I.
-
-    x are the poses of camera and board, A_i the slopes by them, and e_i the noise. d_i are
-    displacements of both frames, with turns times LEVER, and B maps them to what is in the frames.
-    f_i is the flange's position over LEVER and its rotation matrix over sqrt(2), so that small
-    turns count in rad. s and a factor of the noise's covariances C_i maximise the restricted
-    likelihood, if Akaike's criterion prefers s > 0. The covariance of P sum A_i' C_i^-1 A_i B d_i,
-    the error of x that d_i cause, is added to P, the covariance without d_i.
-    """
-    residuals, slopes, _ = LinearHandEye(found).whitened()
-    flange, rows = found.sights.flange, slopes.reshape(residuals.size, -1)
-    turns = flange[:, :3, :3].reshape(-1, 9) / np.sqrt(2)
-    features = np.hstack([flange[:, :3, 3] / LEVER, turns])
-    some = np.unique(np.linspace(0, len(features) - 1, SOME).astype(int))
-    alike = np.exp(-cdist(features, features[some], "sqeuclidean") / (2 * SLOWLY**2))
-    strengths, shapes = np.linalg.eigh(alike[some])
-    kept = strengths > NEGLIGIBLE * strengths[-1]
-    fields = alike @ shapes[:, kept] / np.sqrt(strengths[kept])
-    to_ends = np.diag(np.tile(np.repeat([1.0, 1 / LEVER], 3), 2))
-    to_ends[:3, 3:6] = np.cross(np.eye(3), found.camera[:3, 3]).T / LEVER
-    to_ends[6:9, 9:] = np.cross(np.eye(3), found.board[:3, 3]).T / LEVER
-    by_frames = slopes[..., :ENDS] @ to_ends
-    moved = np.einsum("nij,nk->nijk", by_frames, fields).reshape(residuals.size, -1)
-    lengths = np.maximum(np.linalg.norm(rows, axis=0), np.finfo(float).tiny)
-    fitted = orth(rows / lengths, rcond=OPEN)
-    rest, unfitted = (each - fitted @ (fitted.T @ each) for each in (residuals.ravel(), moved))
-    directions, sizes, _ = np.linalg.svd(unfitted, full_matrices=False)
-    along, freedom = directions.T @ rest, residuals.size - fitted.shape[1]
-    growth = 1 + np.outer(SIZES**2, sizes**2)
-    noise = np.sum(along**2 / growth, axis=1) + np.sum((rest - directions @ along) ** 2)
-    unlikelihood = np.log(growth).sum(axis=1) + freedom * np.log(noise)
-    best = np.argmin(unlikelihood + AKAIKE * (SIZES > 0))
-    shifts = found.covariance[:ENDS] @ (rows.T @ moved)
-    covariance = found.covariance.copy()
-    covariance[:ENDS, :ENDS] += SIZES[best] ** 2 * noise[best] / freedom * shifts @ shifts.T
-    return replace(found, covariance=covariance)
 
 
 def _moved_to_best(found: HandEye) -> HandEye:

@@ -82,7 +82,7 @@ def calibrate_poses(options: Options) -> int:
 
 def calibrate_rows(options: Options) -> int:
     """Write a folder with the calibration of an arm, from a table or from folders of pictures."""
-    page_of = laboratory.page_of  # imported first: a missing package is told before the work
+    page_of = laboratory.page_of  # imported first, to report a missing package at once
     recording_of = laboratory.recording_of if options.recording else None
     paths: list[Path] = options.measurements
     folders = [path for path in paths if os.path.isdir(path)]
