@@ -16,24 +16,22 @@ from recalib.files.outputs import check_new, write_new
 from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
-from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
+from recalib.laboratory.correction import BASE, INSTRUMENT, load_correction
 from recalib.laboratory.hand_eye.pose_table import convention_of, read_poses
 from recalib.laboratory.live.allowed import Box
 from recalib.laboratory.options import BOARD, BY_POSES, CONE, DONE, IN_HAND, NO_BETTER, OF_ARMS
 from recalib.laboratory.propose import propose, useful
 from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report.folder import files_of
-from recalib.laboratory.report.templates import UNITS, render
+from recalib.laboratory.report.warnings_of_commands import warnings_of
 from recalib.laboratory.tables.columns import TARGETS
 from recalib.laboratory.tables.description import within
-from recalib.laboratory.tables.measurements import STILL, pose_rows, postures_table, read_desired
+from recalib.laboratory.tables.measurements import pose_rows, postures_table, read_desired
 from recalib.laboratory.tables.table import read_table, table_text
 from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.denavit_hartenberg import arm_of_table
 from recalib.spelling import counted
 
-FLIP = 180.0  # deg: a joint that turns by more between two rows is on another branch
-TURNED = 0.01  # deg: a rotation with a smaller error counts as reached
 ENOUGH = 0.05  # of the uncertainty: a smaller reduction is not worth the measurements
 Options = argparse.Namespace
 
@@ -165,12 +163,7 @@ def correct(options: Options) -> int:
     commands = correction.correct(poses, rows.joints, names, frame)
     table = postures_table(arm, commands.joints, commands.poses, fake=True)
     write_new(options.out, table, ".csv")
-    values = {"correction": correction, "commands": commands, "most": TURNED}
-    values["ends"] = correction.unidentifiable_ends if frame == BASE else None
-    values["turned"] = np.degrees(commands.turned)
-    values["beyond"] = _beyond(correction, commands) if commands.beyond.any() else None
-    values["flip"] = _flip(correction, commands)
-    for line in render("correct.txt.j2", **values).splitlines():
+    for line in warnings_of(correction, commands, frame):
         print(f"recalib: warning: {line}", file=sys.stderr)
     made = counted(len(commands.joints), "command")
     print(f"{made} in {options.out}: joint coordinates, and at them")
@@ -232,33 +225,6 @@ def urdf(options: Options) -> int:
     write_new(options.out, urdf_of(arm).encode(), ".urdf")
     print(f"{options.out}: {', '.join(arm.joints)}, from {arm.base} to {arm.tool}")
     return DONE
-
-
-def _beyond(correction: Correction, commands: Commands) -> dict[str, Any]:
-    """The number of commands beyond the measured range, and the farthest one [mm, deg]."""
-    coupling, postures = correction.arm.coupling, correction.postures
-    low, high = postures.min(axis=0), postures.max(axis=0)
-    parts = commands.beyond / np.maximum(high - low, STILL)
-    row, joint = np.unravel_index(parts.argmax(), parts.shape)
-    scale, unit = UNITS[0] if coupling.slides[joint] else UNITS[1]
-    return {
-        "rows": np.count_nonzero(commands.beyond.any(axis=1)),
-        "joints": np.array(coupling.columns)[commands.beyond.any(axis=0)],
-        "row": row,
-        "joint": joint,
-        "unit": unit,
-        "far": scale * commands.beyond[row, joint],
-        "ends": (scale * low[joint], scale * high[joint]),
-    }
-
-
-def _flip(correction: Correction, commands: Commands) -> dict[str, Any] | None:
-    """The largest turn of a joint from a row to the next, if it is a flip."""
-    coupling, joints = correction.arm.coupling, commands.joints
-    turns = np.degrees(np.abs(np.diff(joints, axis=0, prepend=joints[:1]))) * ~coupling.slides
-    row, joint = np.unravel_index(turns.argmax(), turns.shape)
-    turn = turns[row, joint]
-    return {"row": row, "joint": coupling.columns[joint], "turn": turn} if turn > FLIP else None
 
 
 def board(options: Options) -> int:

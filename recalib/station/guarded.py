@@ -102,7 +102,7 @@ class Guarded:
             )
 
     def measure(self) -> tuple[np.ndarray, Mapping[str, float | str] | None]:
-        """Joint angles (joints,) [rad, m] and the measurement there; None if no target is seen."""
+        """Joint angles (joints,) [rad, m] and the measurement there; None if none is visible."""
         angles = self._standing()
         cells = self._ask("measure", lambda station: station.measure())
         if (moved := self._moved([angles, self.angles()])) > STILL:

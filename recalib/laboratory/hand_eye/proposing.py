@@ -124,5 +124,5 @@ def _drawn(found: HandEye, board: Board, lens: Lens, box: Box | None, cone: floa
     shown = found.predict(Sights(drawn, drawn, sights.in_hand))
     _, visible = predicted_views(board, lens, shown, False)
     if not visible.any():
-        raise RecalibError("the board would not be seen from any pose in the box and cone")
+        raise RecalibError("the board would be visible from no pose in the box and cone")
     return drawn[visible][:DRAWN]

@@ -255,7 +255,7 @@ class _Session:
         return Answer.MOVE
 
     def _measured(self) -> Observations | None:
-        """All rows with a new one, which is on the disk; None if the target is not seen."""
+        """All rows with a new one, which is on the disk; None if the target is hidden."""
         for left in reversed(range(TRIES)):
             try:
                 angles, cells = self.station.measure()
