@@ -1,8 +1,7 @@
 """Convert pydantic's validation errors into mistakes: the key, its value, what was expected."""
 
-import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import reduce
 from operator import getitem
 from typing import Any
@@ -15,14 +14,15 @@ from replication.config.schema import find, keys, meaning
 
 KEY = "[key]"  # end of the location in pydantic's errors about keys that are no valid name
 MISSING = " is missing: "
-# Replaces Pydantic's Python terms by YAML terms.
-YAML_TERMS = {
-    r"^\w+ should (be|have) ": "",
-    r"a valid dictionary.*": "a mapping",
-    "a valid tuple": "a list",
-    "a valid boolean": "true or false",
-    r"at most (\d+) items? after validation, not .*": r"\1 values",
-    " after validation, not .*": "",
+VALID = {  # by pydantic's type of error, where its message has terms of Python
+    "bool_type": "true or false",
+    "dict_type": "a mapping",
+    "model_type": "a mapping",
+    "string_too_long": "at most {max_length} characters",
+    "string_too_short": "at least {min_length} character",
+    "too_long": "{max_length} values",
+    "too_short": "at least {min_length} item",
+    "tuple_type": "a list",
 }
 
 
@@ -55,7 +55,7 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
             case "too_short" if refusal["input"]:
                 pass  # none of its values is valid, and each has its own mistake
             case _:
-                mistakes.setdefault(path, unlike(path, refusal["input"], _expected(refusal["msg"])))
+                mistakes.setdefault(path, unlike(path, refusal["input"], _expected(refusal)))
     return [*_together(mistakes.values(), whole)]
 
 
@@ -77,7 +77,8 @@ def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
             yield unlike(path, reduce(getitem, path, whole), f"each {expected}")
 
 
-def _expected(message: str) -> str:
-    for pattern, text in YAML_TERMS.items():
-        message = re.sub(pattern, text, message)
-    return message
+def _expected(refusal: Mapping[str, Any]) -> str:
+    if valid := VALID.get(refusal["type"]):
+        return valid.format_map(refusal.get("ctx", {}))
+    message: str = refusal["msg"]
+    return message.removeprefix("Input should be ")

@@ -22,7 +22,6 @@ from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike
 
 from recalib.files.storage import whole
-from replication.plots.steady import LOG, steady
 
 WIDTH = 5.0  # inches
 SMALL = 9  # points, size of the smallest letters
@@ -58,7 +57,6 @@ MARK = 28  # points squared, size of a marker
 
 def save(figure: Figure, *paths: str | Path) -> None:
     """Write a figure to files, without a date: unchanged results give identical files."""
-    steady(figure)
     for path in map(Path, paths):
         with whole(path) as temporary:
             figure.savefig(
@@ -69,7 +67,7 @@ def save(figure: Figure, *paths: str | Path) -> None:
 
 def logarithmic(axis: Axis, *ticks: float) -> None:
     """Make an axis logarithmic, with labels only at these values, as plain numbers."""
-    (axis.axes.set_xscale if axis is axis.axes.xaxis else axis.axes.set_yscale)(LOG)
+    (axis.axes.set_xscale if axis is axis.axes.xaxis else axis.axes.set_yscale)("log")
     axis.set_major_locator(FixedLocator(ticks))
     axis.set_major_formatter(StrMethodFormatter("{x:,g}"))
     axis.set_minor_locator(NullLocator())

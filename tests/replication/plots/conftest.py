@@ -31,7 +31,6 @@ NEEDED = {  # iterations for the improved system's errors, in the reference stud
 LEFT = 0.04  # of the error, by the improved system
 WORSE = {"improved_theta_values": 2.5, "improved_rough": 1.9, "two_maps_for_position_wide": 1.5}
 INITIAL = np.array([8.4, 4.7])
-NOISE = 1e-9  # relative: more than machines differ by
 
 
 def outcomes(study: Study) -> pd.DataFrame:
@@ -122,14 +121,6 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
     once = real["learner"] == UNCORRECTED
     real.loc[once, ["position_error_mm_low", "position_error_mm_high"]] = np.nan
     yield f"{RESULTS}/real.csv", real
-
-
-def disturbed(table: pd.DataFrame) -> pd.DataFrame:
-    """The table as another machine might compute it."""
-    numbers = table.select_dtypes("float").columns.difference(["scale", "width"])  # as configured
-    signs = np.random.default_rng(9).choice([-1, 1], (len(table), len(numbers)))
-    named = zip(numbers, signs.T, strict=True)
-    return table.assign(**{name: table[name] * (1 + NOISE * sign) for name, sign in named})
 
 
 @pytest.fixture(scope="session")
