@@ -93,13 +93,11 @@ def calibrate(
         valid = "lengths [m] by the names of two sockets"
         raise InvalidSetting("distances", type(distances).__name__, valid)
     for pair, length in (distances or {}).items():
-        array_of(f"distances[{pair!r}]", length, ())
-    pairs = distances_of(
-        [
-            {"sockets": [*pair] if isinstance(pair, tuple) else pair, "length": f"{length} m"}
-            for pair, length in (distances or {}).items()
-        ]
-    )
+        name = f"distances[{pair!r}]"
+        check_size(name, array_of(name, length, ()), LENGTH)
+        if length <= 0:
+            raise InvalidSetting(name, length, "more than zero")
+    pairs = distances_of((pair, float(length)) for pair, length in (distances or {}).items())
     check_function("on_progress", on_progress)
     frames = _frame("instrument", instrument), _frame("target", target)
     rows = Measurements(ARRAYS, moving, poses, columns)

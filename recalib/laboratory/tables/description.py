@@ -1,7 +1,7 @@
 """The description of a table (TOML): columns, frames and distances; see docs/own_arm.md."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -65,7 +65,7 @@ def read_description(path: AnyPath) -> Description:
             raise InvalidSetting("columns", columns, 'lines such as joint_1 = "elbow_joint [deg]"')
         return Description(
             columns,
-            distances=distances_of(parts.get("distance", [])),
+            distances=distances_of(_distances(parts.get("distance", []))),
             **_pose("instrument", parts),
             **_pose("target", parts),
             **_wear(parts.get("wear", {})),
@@ -120,20 +120,24 @@ def _wear(given: Any) -> dict[str, Any]:
     return stated
 
 
-def distances_of(given: Any) -> dict[tuple[str, str], float]:
-    """Distances [m] between two sockets, by their sorted names. Raises InvalidSetting."""
+def _distances(given: Any) -> Iterator[tuple[Any, float]]:
+    """Two sockets and their distance [m], for each part of a description."""
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
-    distances: dict[tuple[str, str], float] = {}
     for part in given:
         if not isinstance(part, dict) or part.keys() != {"sockets", "length"}:
             raise InvalidSetting("distance", part, "sockets and length")
-        between = part["sockets"]
-        names = sorted(map(str, between)) if isinstance(between, list) else []
+        yield part["sockets"], _read("distance.length", part["length"], LENGTH, True)
+
+
+def distances_of(given: Iterable[tuple[Any, float]]) -> dict[tuple[str, str], float]:
+    """Distances [m] of pairs of sockets, by their sorted names. Raises InvalidSetting."""
+    distances: dict[tuple[str, str], float] = {}
+    for between, length in given:
+        names = sorted(map(str, between)) if isinstance(between, (list, tuple)) else []
         if len(names) != 2 or names[0] == names[1]:
             raise InvalidSetting("distance.sockets", between, "the names of two sockets")
         pair = names[0], names[1]
-        length = _read("distance.length", part["length"], LENGTH, True)
         if pair in distances:
             found = f"{1e3 * distances[pair]:g} mm and {1e3 * length:g} mm"
             raise InvalidSetting(f"distance between {' and '.join(pair)}", found, "one length")
