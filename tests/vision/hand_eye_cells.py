@@ -1,12 +1,16 @@
 """Cells for hand-eye calibrations: a flange with errors, a camera and a board."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.model.hand_eye_model import Sights
-from recalib.vision import Board, Corners, Lens, find_lens, optics_of, projected, sighting
+from recalib.laboratory.hand_eye.calibrating import seen
+from recalib.laboratory.pictures.observed import Observed, Picture
+from recalib.laboratory.tables.table import Table
+from recalib.vision import Board, Corners, Lens, board_pose, find_lens, projected
 from tests.vision.rendering import ABOVE, BOARD, FIXED, IN_HAND, LENS, frame, photograph_of, placed
 
 NOISE = 0.15  # px
@@ -92,13 +96,22 @@ class HandEyeCell:
     def sights(self, count: int, height: float | None = None) -> Sights:
         """By `count` pictures and the lens from them; a given height is off by `height` [m]."""
         flange = self.flange(count)
-        views = self.views(flange)
-        lens = find_lens([(self.board, view) for view in views], self.lens.size).lens
-        sightings = [sighting(self.board, lens, view, True, False) for view in views]
-        board, optics = optics_of(lens, sightings)
+        shown = shown_by(self, self.views(flange))
         known = None if height is None else (float(self.target[2, 3]) + height, 1e-4)
-        return Sights(self.reported(flange), board, self.in_hand, optics, known)
+        return seen(shown, self.reported(flange), known)
 
     def draw(self, pose: np.ndarray) -> np.ndarray:
         """A picture (height, width) of the board at a pose in the camera."""
         return photograph_of(self.board, self.lens, pose, self.rng)
+
+
+def shown_by(cell: HandEyeCell, views: list[Corners]) -> Observed:
+    """What `observe` finds in pictures with these corners."""
+    lens = find_lens([(cell.board, view) for view in views], cell.lens.size)
+    pictures = [
+        Picture(
+            row, f"{row}.png", corners=view, error=0.2, pose=board_pose(cell.board, lens.lens, view)
+        )
+        for row, view in enumerate(views, 1)
+    ]
+    return Observed(Table(Path(), {}, {}, {}), cell.board, lens, None, cell.in_hand, pictures, [])

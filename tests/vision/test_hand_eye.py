@@ -28,10 +28,8 @@ from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.hand_eye.calibrating import calibrate_poses
 from recalib.laboratory.hand_eye.pose_checks import Mistaken, board_size, exchange_in
 from recalib.laboratory.hand_eye.pose_table import read_poses
-from recalib.laboratory.pictures.observed import Observed, Picture
-from recalib.laboratory.tables.table import Table
-from recalib.vision import Board, Corners, board_pose, find_lens, projected
-from tests.vision.hand_eye_cells import HandEyeCell, turned
+from recalib.vision import Board, board_pose, projected
+from tests.vision.hand_eye_cells import HandEyeCell, shown_by, turned
 from tests.vision.rendering import Cell
 
 POSES = 20
@@ -125,18 +123,6 @@ def test_poses_of_other_pictures_count_for_nothing(in_hand):
     found = calibrate_hand_eye(replace(sights, flange=mixed))
     assert found.outliers.tolist() == rows
     assert off(found.camera, cell.camera)[0] < 4 * found.deviations(0)[0]
-
-
-def shown_by(cell: HandEyeCell, views: list[Corners]) -> Observed:
-    """What `observe` finds in pictures with these corners."""
-    lens = find_lens([(cell.board, view) for view in views], cell.lens.size)
-    pictures = [
-        Picture(
-            row, f"{row}.png", corners=view, error=0.2, pose=board_pose(cell.board, lens.lens, view)
-        )
-        for row, view in enumerate(views, 1)
-    ]
-    return Observed(Table(Path(), {}, {}, {}), cell.board, lens, None, cell.in_hand, pictures, [])
 
 
 @given(st.integers(0, 10_000), st.booleans(), st.booleans(), st.sampled_from(["ros", "kuka"]))

@@ -87,12 +87,12 @@ def calibrate_poses(
     else:
         doubt = shown.doubt  # checked first, so that a wrong lens does not look like wrong poses
         pictures, flange = shown, flange[np.array([picture.row - 1 for picture in shown.used])]
-        sights = _seen(shown, flange.poses, height)
+        sights = seen(shown, flange.poses, height)
     check_motion(sights)
     on_progress("camera and board")
     found = calibrate_hand_eye(sights)
     if pictures is not None:
-        pictures, found = _with_lens(pictures, found)
+        pictures, found = with_lens(pictures, found)
     faults, corrected = moved_ends(found)
     check_fit(corrected, flange, targets)
     on_progress("errors of poses that are held out")
@@ -101,7 +101,7 @@ def calibrate_poses(
     return _files(found, flange.table.path.name, pictures, doubts, good), good
 
 
-def _seen(shown: Observed, flange: np.ndarray, height: tuple[float, float] | None) -> Sights:
+def seen(shown: Observed, flange: np.ndarray, height: tuple[float, float] | None) -> Sights:
     """What pictures show at the flange's poses (n, 4, 4)."""
     views = [view for _, view in views_of(shown.board, shown.used)]
     if shown.board.same_upside_down:
@@ -118,7 +118,7 @@ def _seen(shown: Observed, flange: np.ndarray, height: tuple[float, float] | Non
     return Sights(flange, board, shown.in_hand, optics, height)
 
 
-def _with_lens(shown: Observed, found: HandEye) -> tuple[Observed, HandEye]:
+def with_lens(shown: Observed, found: HandEye) -> tuple[Observed, HandEye]:
     """The same by a lens near that of the fit: residuals are linear in small corrections only."""
     for _ in range(ROUNDS):
         step = found.optics[len(BOARD) :]
@@ -127,7 +127,7 @@ def _with_lens(shown: Observed, found: HandEye) -> tuple[Observed, HandEye]:
         if settled or (lens := moved_lens(shown.lens, step)) is None:
             break
         shown = replace(shown, own=replace(shown.own, lens=lens))
-        found = calibrate_hand_eye(_seen(shown, found.sights.flange, found.sights.height))
+        found = calibrate_hand_eye(seen(shown, found.sights.flange, found.sights.height))
     return shown, found
 
 
