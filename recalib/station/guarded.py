@@ -24,6 +24,7 @@ RADIUS = 0.1  # m from the tool link's origin to such a point, where a target ma
 READINGS, INTERVAL = 4, 0.05  # readings that establish a standstill, and the s between them
 SETTLING = 5.0  # s within which the arm must come to a standstill
 STOPPING = 10.0  # s, the most for a stop
+AGAIN, REPEATS = 0.05, 20  # s until a stop is repeated while a call is not answered, and how often
 
 
 class StationRaised(StationFailed):
@@ -42,6 +43,7 @@ class Guarded:
     def __init__(self, opening: Callable[[], Station], arm: Arm):
         self._arm, self._stopped, self._hangs = arm, False, False
         self._calls = queue.SimpleQueue[tuple[Callable[[], Any], Future[Any]] | None]()
+        self._asked = Future[Any]()  # the latest call's answer
         self._station: Station | None = None
         threading.Thread(target=self._work, name="station", daemon=True).start()
         self._station = self._ask("open", opening)
@@ -119,7 +121,15 @@ class Guarded:
     def stop(self) -> None:
         """Stop the station; all later calls are refused."""
         self._stopped = True
-        self._at_last(lambda station: station.stop())
+
+        def until_answered(station: Station) -> None:
+            station.stop()
+            for _ in range(REPEATS):  # a move that was about to begin may begin after the stop
+                if wait([self._asked], AGAIN).done:
+                    break
+                station.stop()
+
+        self._at_last(until_answered)
 
     def close(self) -> None:
         """Release the station: call its method `close`, if it has one.
@@ -164,7 +174,7 @@ class Guarded:
                 raise StationFailed(f"the station was stopped, so it cannot {what}")
             return call() if self._station is None else call(self._station)
 
-        answer = self._call(unless_stopped)
+        self._asked = answer = self._call(unless_stopped)
         if not wait([answer], PATIENCE).done:
             self._hangs = True
             raise StationFailed(

@@ -302,8 +302,7 @@ def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(message,
         run(station, tmp_path, on_progress=lines.append)
     if wrong := re.match(r"in row (\d+) the target", str(raised.value)):  # which is not written
         assert len((tmp_path / "table.csv").read_text().splitlines()) == int(wrong[1])
-    assert station.calls.count("stop") == 1
-    assert "move" not in station.calls[station.calls.index("stop") :]
+    assert {*station.calls[station.calls.index("stop") :]} == {"stop"}
     assert "10 postures" not in message or moved(station) == 10
     rows = (tmp_path / "table.csv").exists()
     assert bool(re.match(r"stopped; \d+ rows are in ", (lines or [""])[-1])) == rows
@@ -418,6 +417,26 @@ def test_a_move_that_waited_for_its_turn_is_not_made_after_a_stop():
         thread.join()
     guarded.close()
     assert not station.moves
+
+
+def test_a_move_that_begins_just_after_a_stop_is_stopped(monkeypatch):
+    monkeypatch.setattr("recalib.station.guarded.PATIENCE", 60)  # s
+    station, halted = Simulated(), threading.Event()
+    guarded = Guarded(lambda: station, station.arm)
+    late = threading.Thread(target=guarded.stop)
+
+    def move(angles, speed):
+        late.start()
+        halted.wait()  # the first stop comes while the arm is still at rest
+        halted.clear()
+        assert halted.wait(5), "the arm moves after a stop"
+        raise StationFailed("halted")
+
+    station.move, station.stop = move, halted.set
+    with pytest.raises(StationFailed, match="halted"):
+        guarded.move(station.stands, 1.0)
+    late.join()
+    guarded.close()
 
 
 def test_a_torn_row_is_dropped_and_nothing_else(tmp_path, monkeypatch):
