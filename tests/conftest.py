@@ -91,8 +91,10 @@ def pytest_collection_finish() -> None:
 
 @contextmanager
 def few_folds() -> Iterator[None]:
-    """Few folds and few sets for a consensus: what they tell is tested where they are."""
+    """Few folds and few sets of rows to start from: what they tell is tested where they are."""
     with (
+        mock.patch("recalib.identification.initial_estimate.SETS", 8),
+        mock.patch("recalib.identification.initial_estimate.REFINED", 2),
         mock.patch("recalib.identification.held_out.FOLDS", 3),
         mock.patch("recalib.identification.consensus.SETS", 20),
     ):

@@ -27,6 +27,7 @@ def test_a_lag_is_named_by_its_size(size, on_a_path, positions, ur10):
 
 
 @pytest.mark.parametrize("seed", range(8))
+@few_folds()
 def test_a_jump_of_any_size_is_named_wherever_it_is_before_its_rows_are_outliers(seed, ur10):
     """From five deviations of the noise up to 80 mm and 3 degrees."""
     real, random = Real(ur10, seed), np.random.default_rng([seed, 8])

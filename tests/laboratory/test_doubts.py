@@ -19,7 +19,6 @@ from recalib.laboratory.calibrate import identified
 from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import errors_table, summary
-from tests.conftest import few_folds
 from tests.identification.real import Real
 from tests.laboratory.conftest import MIDDLE, RANGE, calibrated_by, measured, postures, table, write
 
@@ -90,7 +89,6 @@ def test_what_wear_does_not_do_is_doubted_by_name(name, message, deviations):
 
 @pytest.mark.parametrize(("seed", "deviation"), [(0, None), (1, None), (2, 2e-3), (3, 2e-3)])
 @pytest.mark.parametrize("off", ["instrument", "target", "nothing"])
-@few_folds()
 def test_a_stated_frame_that_is_off_is_doubted_by_name(seed, off, deviation, ur10):
     """Errors of links may explain such rows as well as a tool that is elsewhere does."""
     real, random = Real(ur10, seed), np.random.default_rng(seed)
@@ -180,7 +178,6 @@ def test_another_scale_is_told_where_it_explains_what_is_off(scale, message):
         (True, "residuals of the best fit are .*; likely: positions with a reversed"),
     ],
 )
-@few_folds()
 def test_a_mistake_that_a_fit_takes_for_errors_of_the_arm_is_named(mirrored, message, tmp_path):
     """In a small part of the workspace the frames make up for much of it."""
     arm, random = load_arm("ur10_robot.urdf", "tool0"), np.random.default_rng(0)
@@ -201,7 +198,6 @@ def test_a_mistake_that_a_fit_takes_for_errors_of_the_arm_is_named(mirrored, mes
 
 
 @pytest.mark.parametrize("still", [[0], [2], [3, 4, 5], [0, 1, 4, 5]], ids=str)
-@few_folds()
 def test_joints_that_stood_still_are_no_mistake(still, ur10):
     """Their own errors look like a column in another unit, or with another zero."""
     real, random = Real(ur10, 5), np.random.default_rng(5)
@@ -212,7 +208,6 @@ def test_joints_that_stood_still_are_no_mistake(still, ur10):
     assert identified(ur10, data).mistake is None
 
 
-@few_folds()
 def test_rows_that_are_shifted_by_one_are_told_once(arm, folder):
     """Slow rows look as if poses lagged behind, too."""
     joints = MIDDLE + RANGE * np.sin(np.arange(ROWS)[:, None] * [0.31, 0.47, 0.23])
@@ -229,7 +224,6 @@ def two_sessions(arm, folder, rows: int, moved: list[float]) -> Calibrated:
     return calibrated_by(arm, folder, joints, positions)
 
 
-@few_folds()
 def test_two_sessions_are_told_of_beside_the_error(arm, folder):
     _, first, *_ = summary(two_sessions(arm, folder, 20, [6e-4, -6e-4, 5e-4])).splitlines()
     assert ": between rows 20 and 21, the instrument or the base seems to have moved by" in first
