@@ -153,7 +153,7 @@ def _posterior(
     Raises LinAlgError: it is singular, or numbers are not finite.
     """
     factor, failed = lapack.dpotrf(precision.T, overwrite_a=True)
-    if failed or not np.isfinite(gradient).all() or not np.isfinite(factor).all():
+    if failed or not (np.isfinite(gradient).all() and np.isfinite(factor).all()):
         raise np.linalg.LinAlgError
     step, _ = lapack.dpotrs(factor, gradient)
     step_norm, volume = float(np.linalg.norm(factor @ step)), -np.log(np.diag(factor)).sum()

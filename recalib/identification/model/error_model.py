@@ -110,6 +110,7 @@ class ErrorModel:
         self._placements = [self._base * first, *others]
         self._placements += [self._tool * pin.SE3(target) for target in targets]
         self._placements += [pin.SE3(base) * first for base in self.frames.further]
+        self._moving = arm.copy()  # to be moved and used at once: an arm is slower to make
         self._into = [placement.inverse().action for placement in self._placements]
         self._ends = [  # the numbers of the twists at both ends of each sight
             (ends + instrument - 1 if instrument else 0, self._joints + target)
@@ -193,11 +194,6 @@ class ErrorModel:
             pin.exp6(pin.Motion(twist)) * nominal
             for twist, nominal in zip(self.twists(parameters), self._placements, strict=True)
         ]
-
-    @cached_property
-    def _moving(self) -> Arm:
-        """An arm to move and to use at once: it is slower to make than to use."""
-        return self.nominal.copy()
 
     @staticmethod
     def _with(arm: Arm, joints: list[pin.SE3], tool: pin.SE3) -> Arm:
