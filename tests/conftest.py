@@ -1,5 +1,6 @@
 """What the tests share: the shipped study and its robot, and copies of the project."""
 
+import fcntl
 import gc
 import os
 import shutil
@@ -18,6 +19,7 @@ os.environ["OMP_NUM_THREADS"] = "1"
 import numpy as np
 import pytest
 from hypothesis import settings
+from numba.core.dispatcher import Dispatcher
 from pydantic import BaseModel
 
 from recalib import (
@@ -44,6 +46,21 @@ from tests import arms
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
 settings.load_profile("untimed")
 
+compile_loop = Dispatcher.compile
+
+
+def compile_once(loop: Dispatcher, signature):
+    """Of processes that need a loop at once, one compiles it, and the others read its cache."""
+    if (folder := loop._cache.cache_path) is None:
+        return compile_loop(loop, signature)
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    with open(Path(folder) / f"{loop.__name__}.lock", "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        return compile_loop(loop, signature)
+
+
+Dispatcher.compile = compile_once
+
 ROOT = Path(__file__).parents[1]
 PARTS = [".gitignore", "Snakefile", "config.yaml", "pyproject.toml", "CITATION.cff", "README.md"]
 PARTS += ["workflow", "recalib", "profiles", "replication", "tests", "docs", "figures"]
@@ -68,13 +85,16 @@ def pytest_collection() -> None:
 
 def pytest_collection_finish() -> None:
     gc.freeze()
+    gc.set_threshold(100_000, 50, 100)  # few objects of tests are in cycles
     gc.enable()
 
 
 @contextmanager
 def few_folds() -> Iterator[None]:
-    """Few folds and few sets for a consensus: what they tell is tested where they are."""
+    """Few folds and few sets of rows to start from: what they tell is tested where they are."""
     with (
+        mock.patch("recalib.identification.initial_estimate.SETS", 8),
+        mock.patch("recalib.identification.initial_estimate.REFINED", 2),
         mock.patch("recalib.identification.held_out.FOLDS", 3),
         mock.patch("recalib.identification.consensus.SETS", 20),
     ):

@@ -17,7 +17,7 @@ no weight. Two more quantities are estimated together with the parameters:
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
+from scipy.linalg import lapack
 from scipy.special import chdtri
 
 from recalib.errors import BadMeasurement
@@ -113,7 +113,7 @@ def identify(
         precision[diagonal] += 1 / variances
         try:
             step, step_norm, covariance, volume = _posterior(precision, gradient)
-        except ValueError:  # a gross error has made the precision singular
+        except np.linalg.LinAlgError:  # a gross error has made the precision singular
             row = weights.argmin()
             valid = "a measurement of the same arm as the others"
             values = observations.joints if observations.measured is None else observations.measured
@@ -150,11 +150,14 @@ def _posterior(
     """The step (P,), its norm in posterior deviations, the covariance (P, P), the log volume.
 
     The precision (P, P) is overwritten: to allocate large matrices takes as long as to fill them.
+    Raises LinAlgError: it is singular, or numbers are not finite.
     """
-    factor = scipy.linalg.cholesky(precision.T, overwrite_a=True)
-    step = scipy.linalg.cho_solve((factor, False), gradient)
+    factor, failed = lapack.dpotrf(precision.T, overwrite_a=True)
+    if failed or not (np.isfinite(gradient).all() and np.isfinite(factor).all()):
+        raise np.linalg.LinAlgError
+    step, _ = lapack.dpotrs(factor, gradient)
     step_norm, volume = float(np.linalg.norm(factor @ step)), -np.log(np.diag(factor)).sum()
-    upper, _ = scipy.linalg.lapack.dpotri(factor, overwrite_c=True)
+    upper, _ = lapack.dpotri(factor, overwrite_c=True)
     covariance = upper + upper.T
     np.fill_diagonal(covariance, np.diag(upper))
     return step, step_norm, covariance, volume

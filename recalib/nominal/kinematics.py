@@ -186,18 +186,16 @@ class Arm:
         The latter (n, 6, (joint + 1) * 6) are derivatives by a motion [m, rad] of each joint's
         placement, and last the tool's, along the axes of the placed frame.
         """
-        poses, joints, placements = [], [], []
-        for q in angles:
-            pose, by_joint = self._pose_and_jacobian(q)
-            poses.append(pose)
-            joints.append(by_joint.reshape(6, -1))  # of a single joint, Pinocchio returns a vector
-            regressor = pin.computeFrameKinematicRegressor(
-                self.model, self._data, self._frame, pin.LOCAL_WORLD_ALIGNED
-            )
-            placements.append(regressor)
-        reached, tools = np.array(poses), np.zeros((len(angles), 6, 6))
-        tools[:, :3, :3] = tools[:, 3:, 3:] = reached[:, :3, :3]
-        return reached, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)
+        count, (model, data, axes) = len(angles), (self.model, self._data, pin.LOCAL_WORLD_ALIGNED)
+        poses, joints = np.empty((count, 4, 4)), np.empty((count, 6, model.nv))
+        placements = np.zeros((count, 6, 6 * (model.nv + 1)))
+        for row, q in enumerate(angles):
+            poses[row], by_joint = self._pose_and_jacobian(q)
+            joints[row] = by_joint.reshape(6, -1)  # of a single joint, Pinocchio returns a vector
+            regressor = pin.computeFrameKinematicRegressor(model, data, self._frame, axes)
+            placements[row, :, :-6] = regressor
+        placements[:, :3, -6:-3] = placements[:, 3:, -3:] = poses[:, :3, :3]
+        return poses, joints, placements
 
     def gravity_torque(self, angles: ArrayLike) -> np.ndarray:
         """Torques (n, joint) [N m] that hold the arm against gravity at angles (n, joint) [rad]."""

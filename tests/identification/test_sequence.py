@@ -11,16 +11,15 @@ from recalib.identification import calibrate, identify_by_consensus
 from recalib.identification.checks.outliers import exchanged
 from recalib.identification.checks.sequence import DRIFT, GROWTH, JUMP, LAG, faults
 from recalib.identification.model import ErrorModel, Frames, Optics
-from tests.conftest import few_folds
 from tests.identification.honesty import AROUND, MIDDLE, ROWS, Session, with_targets
 from tests.identification.real import NOISE, Real, geometry_of
+from tests.laboratory.conftest import quick  # noqa: F401
 
 
 @pytest.mark.parametrize(  # each pair of them at least once
     ("size", "on_a_path", "positions"),
     [(0.05, True, True), (0.05, False, False), (-0.02, True, False), (-0.02, False, True)],
 )
-@few_folds()
 def test_a_lag_is_named_by_its_size(size, on_a_path, positions, ur10):
     fault, *_ = Session(ur10, 1, LAG, size, positions, on_a_path).find_faults()
     assert fault.kind == LAG and fault.size == pytest.approx(size, rel=0.1)
@@ -44,7 +43,6 @@ def test_a_jump_of_any_size_is_named_wherever_it_is_before_its_rows_are_outliers
 
 
 @pytest.mark.parametrize("positions", [True, False])
-@few_folds()
 def test_an_arm_that_grows_as_it_warms_up_is_named_as_that(positions, ur10):
     real, random = Real(ur10, 3), np.random.default_rng(9)
     joints = MIDDLE + random.uniform(-AROUND, AROUND, (60, 6))
@@ -65,7 +63,6 @@ TIMES = np.cumsum(np.random.default_rng(5).uniform(0.1, 3, ROWS))
     [(LAG, 0.02, True, TIMES), (DRIFT, 1e-3, False, None), (DRIFT, 1e-3, False, TIMES**3)],
     ids=["lag", "drift by rows", "drift"],
 )
-@few_folds()
 def test_where_rows_carry_times_a_lag_is_in_seconds_and_a_drift_follows_the_clock(
     kind, size, on_a_path, times, ur10
 ):
@@ -73,13 +70,11 @@ def test_where_rows_carry_times_a_lag_is_in_seconds_and_a_drift_follows_the_cloc
     assert fault.kind == kind and fault.size == pytest.approx(size, rel=0.2)
 
 
-@few_folds()
 def test_a_lag_is_named_in_few_rows_and_no_jump_where_there_are_too_few(ur10):
     assert [fault.kind for fault in Session(ur10, 4, LAG, 0.05, rows=10).find_faults()] == [LAG]
     assert Session(ur10, 4, rows=10).find_faults() == []
 
 
-@few_folds()
 def test_what_a_lag_explains_is_no_further_fault_and_what_it_hides_is_one(ur10):
     """A part of this one looks like a slip of the target, if the arm that it bends is believed."""
     session = Session(ur10, 4, LAG, 0.25, on_a_path=True)

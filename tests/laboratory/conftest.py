@@ -7,6 +7,7 @@ import pytest
 from recalib import Calibrated, Chain, calibrate_arm, load_arm
 from recalib.laboratory.command_line import DONE, main
 from tests.arms import urdf
+from tests.conftest import few_folds
 
 NOISE = 5e-5  # m
 ROWS = 30
@@ -67,6 +68,12 @@ def angles_in(columns: pd.DataFrame, arm) -> np.ndarray:
 def postures(seed: int, count: int = ROWS, part: float = 1.0) -> np.ndarray:
     """Joint angles (count, 3) [rad] in this part of the measured ranges."""
     return MIDDLE + part * RANGE * np.random.default_rng(seed).uniform(-1, 1, (count, 3))
+
+
+@pytest.fixture(autouse=True)
+def quick():
+    with few_folds():
+        yield
 
 
 @pytest.fixture(scope="session")

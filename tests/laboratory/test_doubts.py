@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -250,6 +251,7 @@ def test_the_first_line_and_the_table_say_how_many_rows_are_left_out(arm, folder
     assert text.count(f"95 % within {used.within:.3g} mm") == 2
 
 
+@mock.patch("recalib.identification.held_out.FOLDS", 5)
 def test_a_part_without_which_a_direction_is_open_does_not_count(arm, folder):
     """All postures that turn the last joint are near one another."""
     joints = postures(3, ROWS)

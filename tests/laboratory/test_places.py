@@ -16,7 +16,6 @@ from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.places import found_places
 from recalib.laboratory.report.folder import files_of
 from tests.arms import INDUSTRIAL
-from tests.conftest import few_folds
 from tests.identification.real import ARMS, Real
 from tests.laboratory.conftest import table, write
 
@@ -59,7 +58,6 @@ def test_places_are_known_as_well_as_other_noise_moves_them(ur10, load, position
 
 
 @pytest.fixture(scope="module")
-@few_folds()
 def calibrated(ur10, tmp_path_factory):
     """With gears that no URDF holds, in 60 postures with two targets in each."""
     folder, real = tmp_path_factory.mktemp("places"), Real(ur10, 3, 2, np.radians(0.03))
@@ -101,7 +99,6 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     assert 0 < float(left[deviation]) < 1 < float(left[real_deviation])
 
 
-@few_folds()
 def test_an_arm_that_is_left_alone_may_have_an_offset_that_nothing_tells(ur10, tmp_path):
     real, turned = Real(ur10, 3), np.eye(4)
     joints = real.postures(40)

@@ -110,6 +110,8 @@ class ErrorModel:
         self._placements = [self._base * first, *others]
         self._placements += [self._tool * pin.SE3(target) for target in targets]
         self._placements += [pin.SE3(base) * first for base in self.frames.further]
+        self._moving = arm.copy()  # to be moved and used at once: an arm is slower to make
+        self._into = [placement.inverse().action for placement in self._placements]
         self._ends = [  # the numbers of the twists at both ends of each sight
             (ends + instrument - 1 if instrument else 0, self._joints + target)
             for instrument, target in self.frames.sights.tolist()
@@ -193,8 +195,8 @@ class ErrorModel:
             for twist, nominal in zip(self.twists(parameters), self._placements, strict=True)
         ]
 
-    def _with(self, joints: list[pin.SE3], tool: pin.SE3) -> Arm:
-        arm = self.nominal.copy()
+    @staticmethod
+    def _with(arm: Arm, joints: list[pin.SE3], tool: pin.SE3) -> Arm:
         for joint, placement in enumerate(joints, start=1):
             arm.model.jointPlacements[joint] = placement
         arm.end.placement = tool
@@ -202,15 +204,18 @@ class ErrorModel:
 
     def arm(self, parameters: np.ndarray, sight: int = 0) -> Arm:
         """The arm from the instrument to the target of a sight, moved by the parameters' twists."""
-        placed, (start, end) = self._placed(parameters), self._ends[sight]
-        return self._with([placed[start], *placed[1 : self._joints]], placed[end])
+        return self._to(sight, self._placed(parameters), self.nominal.copy())
+
+    def _to(self, sight: int, placed: list[pin.SE3], arm: Arm) -> Arm:
+        start, end = self._ends[sight]
+        return self._with(arm, [placed[start], *placed[1 : self._joints]], placed[end])
 
     def own_arm(self, parameters: np.ndarray) -> Arm:
         """The same arm from its own base to its own tool, without instrument and target."""
         (first, *others), frames = self._placed(parameters), self.found(parameters)
         first = pin.SE3(frames.base).inverse() * first
         tool = others[self._joints - 1] * pin.SE3(frames.targets[0]).inverse()
-        return self._with([first, *others[: self._joints - 1]], tool)
+        return self._with(self.nominal.copy(), [first, *others[: self._joints - 1]], tool)
 
     def found(self, parameters: np.ndarray) -> Frames:
         """The frames at both ends, moved by the parameters."""
@@ -251,10 +256,10 @@ class ErrorModel:
         The controller reports joints (n, joints) [rad, m]. `targets` (n,) are the numbers of the
         sights; default: the first.
         """
-        standing = self.standing(parameters, joints)
+        standing, placed = self.standing(parameters, joints), self._placed(parameters)
         poses = np.empty((len(joints), 4, 4))
         for sight, rows in by_sight(targets, len(joints)):
-            poses[rows] = self.arm(parameters, sight).forward(standing[rows])
+            poses[rows] = self._to(sight, placed, self._moving).forward(standing[rows])
         return poses
 
     def linearise(
@@ -274,14 +279,14 @@ class ErrorModel:
         standing = self.standing(parameters, joints, terms)
         # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): a motion in the frame of the placed joint
         motions = [
-            nominal.inverse().action @ pin.Jexp6(pin.Motion(twist))
-            for nominal, twist in zip(self._placements, self.twists(parameters), strict=True)
+            into @ pin.Jexp6(pin.Motion(twist))
+            for into, twist in zip(self._into, self.twists(parameters), strict=True)
         ]
-        count, links = self._joints, 6 * self._joints
+        count, links, placed = self._joints, 6 * self._joints, self._placed(parameters)
         poses = np.empty((len(joints), 4, 4))
         jacobians = np.zeros((len(joints), 6, len(parameters)))
         for sight, rows in by_sight(targets, len(joints)):
-            arm, (start, end) = self.arm(parameters, sight), self._ends[sight]
+            arm, (start, end) = self._to(sight, placed, self._moving), self._ends[sight]
             poses[rows], by_joint, placements = arm.forward_and_all_jacobians(standing[rows])
             by_twist = np.stack([motions[start], *motions[1:count], motions[end]])
             by_link = placements.reshape(-1, count + 1, 6).swapaxes(0, 1) @ by_twist

@@ -111,7 +111,7 @@ class Linearisation:
                 information[kind] -= rows.T @ rows
         weighted = (self.residuals * weights[:, None]).reshape(len(self.residuals), -1)
         rows = self.jacobians.reshape(*weighted.shape, -1)
-        return information, np.einsum("kr,krp->kp", weighted, rows, optimize=True)
+        return information, (weighted[:, None] @ rows)[:, 0]
 
     @cached_property
     def _information(self) -> np.ndarray:
