@@ -71,7 +71,8 @@ def calibrate_poses(options: Options) -> int:
         given = options.pictures, options.board, options.lens, in_hand, print_progress
         shown: Any = laboratory.pictures_at(flange, *given)
     else:
-        settings = options.target_convention, options.unit, "targets" in inverse, True
+        unit = options.target_unit or options.unit
+        settings = options.target_convention, unit, "targets" in inverse, True
         shown = read_poses(options.targets, *settings)
     height = options.height and within("--height", options.height, LENGTH, 1e-4)
     files, good = laboratory.calibrate_poses(flange, shown, in_hand, height, print_progress)

@@ -13,8 +13,15 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from recalib.errors import InvalidFile, UnknownName
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER
-from recalib.laboratory.hand_eye.pose_files import read_text
+from recalib.laboratory.hand_eye.pose_files import (
+    BETWEEN,
+    BRACKETS,
+    NAMED,
+    poses_in,
+    read_text,
+)
 from recalib.laboratory.tables.columns import (
+    PICTURE,
     PICTURES,
     POSITIONS,
     QUATERNIONS,
@@ -27,7 +34,7 @@ from recalib.spelling import listed
 
 NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions and of rotation matrices, by their count of numbers
 SKEW = 0.02  # relative error of a norm, from rounding
-_BETWEEN, _BRACKETS = re.compile(r"[\s,;]+"), re.compile(r"[\[\](){}]")
+_LABEL = re.compile(r"^\s*[A-Za-z_][^\n\[\]{},;:=]*:?[:=]|\w*array(?=\()", re.MULTILINE)
 _LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # without e, which is in 1e-3
 _NAN = re.compile(r"\b(nan|inf|infinity)\b", re.IGNORECASE)
 _ALONE = "by such headings, or by numbers alone in this order, without headings"
@@ -140,13 +147,20 @@ def read_poses(
     rotation; UnknownName: an unknown convention.
     """
     way = None if convention is None else convention_of(convention)
-    text, rows = read_text(path, targets)
-    if rows or not _LETTERS.search(_NAN.sub("", text)):
-        text = _headed(rows or _rows(text), Path(path), way)
-    if ";" in text.partition("\n")[0]:  # then commas are decimal
-        text = text.replace(",", ".").replace(";", ",")
-    head, _, rest = text.partition("\n")
-    table = table_of(f"{head.lower()}\n{rest}".encode(), path)
+    headings = way.headings if way else ()
+    text, rows = read_text(path, targets, headings)
+    lines = [*filter(_cells, _LABEL.sub("", text).splitlines())]
+    # words are no headings
+    lines = [
+        line for line in lines if _is_row(line) or len(_cells(line)) >= len(POSITIONS.headings) + 3
+    ] or lines
+    if rows or (lines and _is_row(lines[0])):
+        text = _headed(rows or [*map(_cells, lines)], Path(path), way)
+    table = table_of(_separated(text).encode(), path)
+    if "x" not in table:
+        records = [dict(zip(table.cells, row)) for row in zip(*table.cells.values())]
+        if rows := [*poses_in(records, targets, headings)]:
+            table = table_of(_headed(rows, Path(path), way).encode(), path)
     if way is None or MATRIX[0] in table:
         way = next((own for own in OWN if all(name in table for name in own.headings)), None)
     if way is None:
@@ -164,7 +178,9 @@ def read_poses(
     places = [abs(number_in(cell)) for cell in table.cells.get("x", ())]
     if unit is None and units["x"] == "m" and np.max(places, initial=0) > LENGTH.farthest:
         raise InvalidFile(
-            path, f"x in row 1 is {table.cells['x'][0]} m. Is its unit right? Try: --unit mm"
+            path,
+            f"x in row 1 is {table.cells['x'][0]} m. Is its unit right? Try:"
+            f" --{'target-' * targets}unit mm",
         )
     table = replace(table, units=units)
     arrays = table.read((*layout, PICTURES), [*table.cells])
@@ -183,15 +199,39 @@ def read_poses(
     return PoseTable(table, arrays["positions"], rotations, turns, inverted)
 
 
-def _rows(text: str) -> list[list[str]]:
-    lines = (line.strip(" \t\r,;") for line in _BRACKETS.sub(" ", text).splitlines())
-    return [_BETWEEN.split(line) for line in lines if line]
+def _cells(line: str) -> list[str]:
+    return [cell for cell in BETWEEN.split(BRACKETS.sub(" ", line)) if cell]
+
+
+def _is_row(line: str) -> bool:
+    """Whether a line has numbers, and is no heading."""
+    return any(np.isfinite(number_in(cell)) for cell in _cells(line)) or not _LETTERS.search(
+        _NAN.sub("", line)
+    )
+
+
+def _separated(text: str) -> str:
+    """The text of a table with headings in small letters, and commas between cells."""
+    head, _, rest = text.strip("\n").partition("\n")
+    head = re.sub(r"\((mm|cm|m|deg|rad)\)", r"[\1]", re.sub("^(?=,)", "row", head.lower()))
+    if ";" in head:  # then commas are decimal
+        return f"{head}\n{rest}".replace(",", ".").replace(";", ",")
+    if "," not in head:
+        between = "\t" if "\t" in head else r"[ \t]+"
+        return re.sub(rf"(?<=\S){between}(?=\S)", ",", f"{head}\n{rest}")
+    return f"{head}\n{rest}"
 
 
 def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
     """Add headings to numbers alone: a pose in each row, or a matrix in each three or four."""
-    if len(rows) > 1 and len(rows[0]) == 1:  # the number of poses that follow
-        rows = rows[1:]
+    rows = [row for row in rows if len(row) > 1] or rows  # without numbers of poses
+    ahead: list[list[str]] = []  # columns of names and times
+    words = [[cell for cell in row if _LETTERS.search(_NAN.sub("", cell))] for row in rows]
+    if {*map(len, words)} == {1}:
+        ahead = [[PICTURE if NAMED.search(words[0][0]) else "name", *chain(*words)]]
+        rows = [
+            [cell for cell in row if cell != name] for row, (name,) in zip(rows, words, strict=True)
+        ]
     if {len(row) for row in rows} == {4}:
         lasts = *rows, [row[-1] for row in rows[:4]]  # the last column, if they are transposed
         high = 4 if any([*map(number_in, last)] == [0, 0, 0, 1] for last in lasts) else 3
@@ -201,21 +241,28 @@ def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
     if len({len(row) for row in rows}) > 1:
         raise InvalidFile(path, "its rows have different lengths; expected: a pose in each row")
     count, headings = len(rows[0]), [*POSE]
+    if way is CONVENTIONS["abb"] and count == 17:  # a robtarget, with configuration and other axes
+        rows, count = [row[:7] for row in rows], 7
+    fields = [*POSITIONS.headings, *(way.headings if way else ())]
+    begins = [number_in(row[0]) for row in rows]
+    if count - 1 in (12, 16, len(fields)) and count != len(fields) and (np.diff(begins) >= 0).all():
+        ahead, count = [*ahead, ["time", *(row[0] for row in rows)]], count - 1
+        rows = [row[1:] for row in rows]
     ends = [row[12:] for row in rows if [*map(number_in, row[12:])] != [0, 0, 0, 1]]
     if count == 16 and ends:
         found = f"the last row of a matrix is {' '.join(ends[0])}; expected: 0 0 0 1"
         raise InvalidFile(path, f"{found}; is it transposed?")
-    if way is CONVENTIONS["abb"] and count == 17:  # a robtarget, with configuration and other axes
-        rows, count = [row[:7] for row in rows], 7
     if count not in (12, 16):
         if way is None:
-            raise InvalidFile(path, "it has no headings; try: --convention or --target-convention")
-        headings = [*POSITIONS.headings, *way.headings]
-        begins = [number_in(row[0]) for row in rows]
-        if count == len(headings) + 1 and (np.diff(begins) >= 0).all():
-            headings = ["time", *headings]
+            valid = "try: --convention or --target-convention"
+            raise InvalidFile(path, f"it has {count} numbers in a row, without headings; {valid}")
+        headings = fields
         if count != len(headings):
             valid = f"{len(headings)}, {', '.join(headings)}"
             valid += "; does it have decimal commas?" * (count == 2 * len(headings))
             raise InvalidFile(path, f"it has {count} numbers in a row; expected: {valid}")
-    return "\n".join(",".join(row) for row in (headings[:count], *rows))
+    rows = [headings[:count], *rows]
+    return "\n".join(
+        ",".join([*before, *row])
+        for before, row in zip([*zip(*ahead)] or [()] * len(rows), rows, strict=True)
+    )
