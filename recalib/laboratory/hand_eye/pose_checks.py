@@ -16,9 +16,10 @@ import numpy as np
 from recalib.files.quantities import LENGTH
 from recalib.identification.hand_eye import ONE_AXIS, starts
 from recalib.identification.model.hand_eye_model import HandEye, Sights
-from recalib.laboratory.hand_eye.pose_table import PoseTable, other_readings
+from recalib.laboratory.hand_eye.pose_table import PoseTable
 from recalib.laboratory.plausibility.mistakes import Mistaken
 from recalib.laboratory.plausibility.steps import UNITS
+from recalib.laboratory.tables.conventions import other_readings
 from recalib.spelling import counted
 
 FEWEST = 6  # poses: each has 6 numbers, for 12 unknowns
@@ -148,11 +149,14 @@ def _check_size(found: HandEye, scale: float, deviation: float, least: float, ta
                 f" {scale:.3g} times as large as described; try: {option}, or another unit in the"
                 " heading"
             )
-    percent = f"{100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %)"
-    lengths = "the target's positions" if table else "lengths in --board"
+    differs = f"{100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %)"
+    differs += f" {'larger' if scale > 1 else 'smaller'} than"
+    valid, lengths = "described", "lengths in --board"
+    if table:
+        valid, lengths = "by the target's positions", "these"
     raise Mistaken(
-        f"according to the flange's positions, the board is {percent} {'larger' if scale > 1 else 'smaller'} than"
-        f" {'by those of the target' if table else 'described'}; try: {lengths} times {scale:.4g}, after measuring a square"
+        f"according to the flange's positions, the board is {differs} {valid}; try:"
+        f" {lengths} times {scale:.4g}, after measuring a square"
     )
 
 

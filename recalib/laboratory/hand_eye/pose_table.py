@@ -1,107 +1,38 @@
-"""Tables of poses from a controller or a camera, and the conventions in which they write poses."""
+"""Tables of poses from a controller or a camera."""
 
 import re
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import chain
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from recalib.errors import InvalidFile, UnknownName
+from recalib.errors import InvalidFile
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER
-from recalib.laboratory.hand_eye.pose_files import (
-    BETWEEN,
-    BRACKETS,
-    NAMED,
-    poses_in,
-    read_text,
+from recalib.laboratory.hand_eye.pose_files import read_text
+from recalib.laboratory.tables.columns import PICTURE, PICTURES, POSITIONS, Columns
+from recalib.laboratory.tables.conventions import (
+    CONVENTIONS,
+    MATRIX,
+    OWN,
+    POSE,
+    Convention,
+    convention_of,
 )
-from recalib.laboratory.tables.columns import (
-    PICTURE,
-    PICTURES,
-    POSITIONS,
-    QUATERNIONS,
-    ROTATION_VECTORS,
-    Columns,
-)
-from recalib.laboratory.tables.measurements import TURNS
+from recalib.laboratory.tables.records import BETWEEN, BRACKETS, NAMED, poses_in
 from recalib.laboratory.tables.table import Table, number_in, table_of
 from recalib.spelling import listed
 
 NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions and of rotation matrices, by their count of numbers
 SKEW = 0.02  # relative error of a norm, from rounding
 _LABEL = re.compile(r"^\s*[A-Za-z_][^\n\[\]{},;:=]*:?[:=]|\w*array(?=\()", re.MULTILINE)
+_LIST = re.compile(r"\[\s*[-.\d\[]")
 _LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # without e, which is in 1e-3
 _NAN = re.compile(r"\b(nan|inf|infinity)\b", re.IGNORECASE)
+FEWEST = 6  # headings of a pose: fewer words are a remark
 _ALONE = "by such headings, or by numbers alone in this order, without headings"
-_ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler angles; no axis twice in a row
-
-
-@dataclass(frozen=True)
-class Convention:
-    """A way to write poses."""
-
-    headings: tuple[str, ...]  # of the rotation, in the controller's order
-    turns: Callable[[np.ndarray], Rotation]  # from the rotation's numbers (n, k) [rad, 1]
-    length: str = ""  # the unit of lengths in columns whose heading names none
-    angle: str = ""  # the unit of angles in columns whose heading names none
-
-
-def _euler(order: str, *headings: str) -> Convention:
-    return Convention(headings, partial(Rotation.from_euler, order), "mm", "deg")
-
-
-scalar_first = partial(Rotation.from_quat, scalar_first=True)
-MATRIX = tuple(f"r{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3))
-CONVENTIONS = {
-    "ros": Convention(QUATERNIONS.headings, Rotation.from_quat, "m"),
-    "ur": Convention(ROTATION_VECTORS.headings, Rotation.from_rotvec, "m", "rad"),
-    "abb": Convention(("q1", "q2", "q3", "q4"), scalar_first, "mm"),
-    "kuka": _euler("ZYX", "a", "b", "c"),
-    "fanuc": _euler("xyz", "w", "p", "r"),
-    "staubli": _euler("XYZ", "rx", "ry", "rz"),
-    "matrix": Convention(MATRIX, lambda rows: Rotation.from_matrix(rows.reshape(-1, 3, 3)), "m"),
-}
-POSE = (*MATRIX[:3], "x", *MATRIX[3:6], "y", *MATRIX[6:], "z", *(f"last {n}" for n in range(4)))
-# conventions that the headings of a table reveal
-OWN = (
-    *(Convention(columns.headings, turns) for columns, turns in TURNS.items()),
-    *(Convention(("qw", "qx", "qy", "qz"), scalar_first), CONVENTIONS["matrix"]),
-)
-
-
-def convention_of(name: str) -> Convention:
-    """The convention with this name, or with this order of Euler angles, such as ZYZ.
-
-    Capitals mean moving axes, as in SciPy. Raises UnknownName.
-    """
-    if _ORDER.fullmatch(name):
-        return _euler(name, "a", "b", "c")
-    if name.lower() not in CONVENTIONS:
-        raise UnknownName("convention", name, [*CONVENTIONS, "an order such as ZYZ or xyz"])
-    return CONVENTIONS[name.lower()]
-
-
-def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
-    """Other meanings of the numbers (n, k) of rotations, in words, and the resulting rotations.
-
-    These include degrees that were read as radians, and radians that were read as degrees.
-    """
-    if numbers.shape[1] == 4:
-        yield "a quaternion w, x, y, z", scalar_first(numbers)
-        yield "a quaternion x, y, z, w", Rotation.from_quat(numbers)
-    if numbers.shape[1] == 9:
-        yield "transposed", Rotation.from_matrix(numbers.reshape(-1, 3, 3).swapaxes(1, 2))
-    if numbers.shape[1] == 3:
-        for scale, unit in ((1.0, ""), (np.pi / 180, " [deg]"), (180 / np.pi, " [rad]")):
-            yield f"a rotation vector{unit}", Rotation.from_rotvec(scale * numbers)
-            for order in ("ZYX", "xyz", "XYZ", "ZYZ", "ZXZ"):
-                axes = f"{'moving' if order.isupper() else 'fixed'} axes {', '.join(order.lower())}"
-                yield f"angles about the {axes}{unit}", Rotation.from_euler(order, scale * numbers)
 
 
 @dataclass(frozen=True)
@@ -149,18 +80,22 @@ def read_poses(
     way = None if convention is None else convention_of(convention)
     headings = way.headings if way else ()
     text, rows = read_text(path, targets, headings)
+    if ";" in (head := text.partition("\n")[0]) and not _LIST.search(head):  # commas are decimal
+        text = text.replace(",", ".").replace(";", ",")
     lines = [*filter(_cells, _LABEL.sub("", text).splitlines())]
-    # words are no headings
-    lines = [
-        line for line in lines if _is_row(line) or len(_cells(line)) >= len(POSITIONS.headings) + 3
-    ] or lines
-    if rows or (lines and _is_row(lines[0])):
+    lines = [line for line in lines if _is_row(line) or len(_cells(line)) >= FEWEST] or lines
+    if rows or not lines or _is_row(lines[0]):
         text = _headed(rows or [*map(_cells, lines)], Path(path), way)
-    table = table_of(_separated(text).encode(), path)
-    if "x" not in table:
-        records = [dict(zip(table.cells, row)) for row in zip(*table.cells.values())]
+    else:
+        text = _separated(lines)
+    table = table_of(text.encode(), path)
+    lengths = {unit for unit in table.units.values() if unit in LENGTH.units}
+    if "x" not in table and len(lengths) < 2 and "deg" not in table.units.values():
+        cells = zip(*table.cells.values(), strict=True)
+        records = [dict(zip(table.cells, row, strict=True)) for row in cells]
         if rows := [*poses_in(records, targets, headings)]:
             table = table_of(_headed(rows, Path(path), way).encode(), path)
+            unit = unit or next(iter(lengths), None)
     if way is None or MATRIX[0] in table:
         way = next((own for own in OWN if all(name in table for name in own.headings)), None)
     if way is None:
@@ -205,21 +140,15 @@ def _cells(line: str) -> list[str]:
 
 def _is_row(line: str) -> bool:
     """Whether a line has numbers, and is no heading."""
-    return any(np.isfinite(number_in(cell)) for cell in _cells(line)) or not _LETTERS.search(
-        _NAN.sub("", line)
-    )
+    numbers = any(np.isfinite(number_in(cell)) for cell in _cells(line))
+    return numbers or not _LETTERS.search(_NAN.sub("", line))
 
 
-def _separated(text: str) -> str:
+def _separated(lines: list[str]) -> str:
     """The text of a table with headings in small letters, and commas between cells."""
-    head, _, rest = text.strip("\n").partition("\n")
-    head = re.sub(r"\((mm|cm|m|deg|rad)\)", r"[\1]", re.sub("^(?=,)", "row", head.lower()))
-    if ";" in head:  # then commas are decimal
-        return f"{head}\n{rest}".replace(",", ".").replace(";", ",")
-    if "," not in head:
-        between = "\t" if "\t" in head else r"[ \t]+"
-        return re.sub(rf"(?<=\S){between}(?=\S)", ",", f"{head}\n{rest}")
-    return f"{head}\n{rest}"
+    head = re.sub(r"\((mm|cm|m|deg|rad)\)", r"[\1]", re.sub("^(?=,)", "row", lines[0].lower()))
+    between = r"(?!)" if "," in head else "\t" if "\t" in head else r"[ \t]+"
+    return re.sub(rf"(?<=\S){between}(?=\S)", ",", "\n".join([head, *lines[1:]]))
 
 
 def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
@@ -230,7 +159,8 @@ def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
     if {*map(len, words)} == {1}:
         ahead = [[PICTURE if NAMED.search(words[0][0]) else "name", *chain(*words)]]
         rows = [
-            [cell for cell in row if cell != name] for row, (name,) in zip(rows, words, strict=True)
+            [cell for cell in row if cell not in word]
+            for row, word in zip(rows, words, strict=True)
         ]
     if {len(row) for row in rows} == {4}:
         lasts = *rows, [row[-1] for row in rows[:4]]  # the last column, if they are transposed
@@ -261,8 +191,5 @@ def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
             valid = f"{len(headings)}, {', '.join(headings)}"
             valid += "; does it have decimal commas?" * (count == 2 * len(headings))
             raise InvalidFile(path, f"it has {count} numbers in a row; expected: {valid}")
-    rows = [headings[:count], *rows]
-    return "\n".join(
-        ",".join([*before, *row])
-        for before, row in zip([*zip(*ahead)] or [()] * len(rows), rows, strict=True)
-    )
+    columns = [*ahead, *map(list, zip(headings[:count], *rows, strict=True))]
+    return "\n".join(map(",".join, zip(*columns, strict=True)))

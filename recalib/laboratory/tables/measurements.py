@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,8 +20,8 @@ from recalib.laboratory.tables.columns import (
     NOMINAL,
     POSITIONS,
     QUATERNIONS,
-    ROLL_PITCH_YAW,
     ROTATION_VECTORS,
+    ROTATIONS,
     SOCKETS,
     TARGETS,
     TIMES,
@@ -38,13 +37,6 @@ SKEW = 0.01  # error of a quaternion's length, from rounding by the instrument
 COPIES = 0.1  # of the rows, at most: no instrument repeats itself so often to the last digit
 MOVED = 0.05  # rad, m: if two joints move by more, the target moves, too
 STILL = 1e-3  # rad, m: a joint that moves less might as well be held by its brake
-
-
-TURNS = {
-    QUATERNIONS: Rotation.from_quat,
-    ROTATION_VECTORS: Rotation.from_rotvec,
-    ROLL_PITCH_YAW: partial(Rotation.from_euler, "xyz"),
-}
 
 
 @dataclass(frozen=True)
@@ -249,7 +241,7 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
 
     Raises InvalidFile if columns contradict each other, or are useless.
     """
-    turns = [kind for kind in TURNS if kind.name in given]
+    turns = [kind for kind in ROTATIONS if kind.name in given]
     positions = given.get(POSITIONS.name)
     if ERRORS.name in given:
         if NOMINAL.name not in given or positions is not None:
@@ -264,6 +256,7 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
     if positions is None:
         raise InvalidFile(path, "it has rotations without positions; expected: also x, y, z")
     (kind,) = turns
+    assert kind.turns is not None
     with np.errstate(over="ignore"):  # an infinite length is refused below
         lengths = np.linalg.norm(given[kind.name], axis=1)
     if kind is QUATERNIONS and (wrong := np.abs(lengths - 1) > SKEW).any():
@@ -271,6 +264,6 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
         found = f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; expected: 1"
         raise InvalidFile(path, found)
     poses = np.tile(np.eye(4), (len(positions), 1, 1))
-    poses[:, :3, :3] = TURNS[kind](given[kind.name]).as_matrix()
+    poses[:, :3, :3] = kind.turns(given[kind.name]).as_matrix()
     poses[:, :3, 3] = positions
     return poses
