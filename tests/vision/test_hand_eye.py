@@ -323,8 +323,8 @@ FAULTS = {
         "the poses of one table are of a left-handed frame",
         change=lambda poses: FLIP @ poses @ FLIP,
     ),
-    "larger": Fault("larger than described", change=scaled(1.04)),
-    "smaller": Fault("smaller than described", change=scaled(0.97)),
+    "larger": Fault("larger than by the target's", change=scaled(1.04)),
+    "smaller": Fault("smaller than by the target's", change=scaled(0.97)),
     "mm as m": Fault("Is its unit right?", change=scaled(1e3)),
     "m as mm": Fault("likely in metres labelled mm", change=scaled(1e-3)),
     "mm as cm": Fault("likely in millimetres labelled cm", change=tenfold, way="ros"),
@@ -349,6 +349,19 @@ def test_what_cannot_be_is_named_in_one_sentence(fault, seed, in_hand, way):
     lines = [line for line in stderr.getvalue().splitlines() if not line.startswith("...")]
     expected = fault.message + SIDES[in_hand] * fault.otherwise
     assert code == REFUSED and len(lines) == 1 and expected in lines[0], lines
+
+
+@pytest.mark.parametrize("in_hand", [False, True])
+def test_mistakes_in_the_targets_are_named(in_hand, tables, tmp_path, capsys):
+    flange = tables(cell := HandEyeCell(5, in_hand))
+    for poses, message in (
+        (read_poses("poses.txt", "ros").poses, "it has the same poses as poses.txt"),
+        (scaled(0.1)(cell.board_poses(flange)), "the target's positions are likely in centimetres"),
+        (scaled(0.98)(cell.board_poses(flange)), "larger than by the target's positions"),
+    ):
+        (tmp_path / "targets.txt").write_text(written(poses))
+        assert calibrate(camera=SIDES[in_hand]) == REFUSED
+        assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -72,7 +72,7 @@ def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> N
     fits = remaining < WRONG
     sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
     scale, deviation, error = min(sizes, key=lambda size: size[2])
-    if fits or (error < EXPLAINED * remaining and deviation < SIZE):
+    if fits or (error < EXPLAINED * remaining and deviation < SIZE * scale):
         _check_size(found, scale, deviation, SIZE if fits else 0.0, targets is not None)
     if not fits:
         _check_height(found.sights, remaining)

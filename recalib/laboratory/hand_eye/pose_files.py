@@ -48,6 +48,8 @@ def read_text(path: AnyPath, targets: bool, headings: Sequence[str]) -> tuple[st
             with suppress(ValueError, TypeError, KeyError, RecursionError, yaml.YAMLError):
                 poses = [*poses_in([*yaml.safe_load_all(tree)], targets, headings)]
         numbers = BETWEEN.split(BRACKETS.sub(" ", text).strip())
+        if not any(numbers):
+            raise InvalidFile(file, "it is empty")
         rows += poses or _labelled(text, headings) or [numbers] * each
         if not rows and file.suffix.lower() in (".json", ".yaml", ".yml", ".xml"):
             valid = "lists of 12 or 16 numbers, or 'translation' and 'rotation'; try: --convention"

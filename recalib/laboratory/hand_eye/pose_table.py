@@ -84,7 +84,7 @@ def read_poses(
         text = text.replace(",", ".").replace(";", ",")
     lines = [*filter(_cells, _LABEL.sub("", text).splitlines())]
     lines = [line for line in lines if _is_row(line) or len(_cells(line)) >= FEWEST] or lines
-    if rows or not lines or _is_row(lines[0]):
+    if rows or _is_row(lines[0]):
         text = _headed(rows or [*map(_cells, lines)], Path(path), way)
     else:
         text = _separated(lines)
@@ -153,7 +153,8 @@ def _separated(lines: list[str]) -> str:
 
 def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
     """Add headings to numbers alone: a pose in each row, or a matrix in each three or four."""
-    rows = [row for row in rows if len(row) > 1] or rows  # without numbers of poses
+    least = min(4, max(map(len, rows)))  # fewer whole numbers count the poses, or number one
+    rows = [row for row in rows if len(row) >= least or not all(map(str.isdigit, row))]
     ahead: list[list[str]] = []  # columns of names and times
     words = [[cell for cell in row if _LETTERS.search(_NAN.sub("", cell))] for row in rows]
     if {*map(len, words)} == {1}:
@@ -166,8 +167,6 @@ def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
         lasts = *rows, [row[-1] for row in rows[:4]]  # the last column, if they are transposed
         high = 4 if any([*map(number_in, last)] == [0, 0, 0, 1] for last in lasts) else 3
         rows = [[*chain(*rows[first : first + high])] for first in range(0, len(rows), high)]
-    if not rows:
-        raise InvalidFile(path, "it is empty")
     if len({len(row) for row in rows}) > 1:
         raise InvalidFile(path, "its rows have different lengths; expected: a pose in each row")
     count, headings = len(rows[0]), [*POSE]

@@ -19,13 +19,16 @@ _OF_TARGETS = re.compile(
     "object|target|track|optical|marker|board|cam|eye|[rt]vec|pattern|tag|detect|vision|chess|aruco"
 )
 _OTHER = re.compile("joint|axis|force|torque|wrench|speed|vel|dist|coef|intrinsic|camera_mat")
-_PLACE = re.compile("(?<![a-z])(t|p|pos|xyz|tvec|trans|translation|position)s?(?![a-z])(_vector)?")
+_PLACE = re.compile(
+    "(?<![a-z])(t|p|pos|xyz|tvec|trans|translation|position|location)s?(?![a-z])(_vector)?"
+)
 _TURN = re.compile(
     "(?<![a-z])(r|q|rot|quat|quaternion|rvec|rotvec|rotation|orientation|euler|rpy)s?(?![a-z])"
     "(_(wxyz|xyzw|vector|vec|matrix))?"
 )
 _VECTOR = re.compile("rvec|rotvec|rotation_vec")  # [rad]
 _CAPITAL, _STUCK = r"(?<=[a-z])(?=[A-Z])", r"(?<=(?<![a-z])[tprq])(?=([xyzw]|\d\d?)$)"
+_REAL = re.compile(r"\d\.\d")
 _AXIS = re.compile(r"(?:(.*)[_./ \[])?([xyzw]|\d\d?)\]?")
 
 
@@ -66,8 +69,10 @@ def poses_in(tree: Any, targets: bool, headings: Sequence[str]) -> Iterator[list
         name: [[*files.get(name, pictures[:1]), *row] for row in rows]
         for name, rows in found.items()
     }
-    ours = [rows for name, rows in named.items() if bool(_OF_TARGETS.search(name)) == targets]
-    yield from chain(*(ours if any(ours) else named.values()))
+    ours = [name for name in named if bool(_OF_TARGETS.search(name)) == targets]
+    unread = any(len(_REAL.findall(str(parts.get(name)))) >= COUNTS[0] for name in ours)
+    some = unread or any(named[name] for name in ours)
+    yield from chain(*(named[name] for name in (ours if some else named)))
 
 
 def in_order(name: str) -> list[str | int]:
@@ -116,7 +121,7 @@ def _parts(tree: dict[Any, Any], headings: Sequence[str]) -> dict[str, Any]:
         axis = _AXIS.fullmatch(re.sub(_STUCK, "_", name))
         if axis and not isinstance(part, list | dict):
             of = axis[1] or ""  # x, y and z are a position if their name is not of a rotation
-            of += "" if axis[2].isdigit() or _TURN.search(of) else "_t"
+            of += "" if axis[2].isdigit() or _TURN.search(of) or _PLACE.search(of) else "_t"
             parts.setdefault(of, {})[axis[2]] = part
         else:
             words = BETWEEN.split(BRACKETS.sub(" ", str(part)).strip())
