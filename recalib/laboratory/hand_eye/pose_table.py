@@ -153,7 +153,9 @@ def _separated(lines: list[str]) -> str:
 
 def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
     """Add headings to numbers alone: a pose in each row, or a matrix in each three or four."""
-    least = min(4, max(map(len, rows)))  # fewer whole numbers count the poses, or number one
+    least = (
+        4 if max(map(len, rows)) == 4 else 2
+    )  # fewer whole numbers count the poses, or number one
     rows = [row for row in rows if len(row) >= least or not all(map(str.isdigit, row))]
     ahead: list[list[str]] = []  # columns of names and times
     words = [[cell for cell in row if _LETTERS.search(_NAN.sub("", cell))] for row in rows]

@@ -4,12 +4,7 @@ Reading, checking and `recalib calibrate --help` use these definitions. To add a
 `MEASURED`; its values are in `Measurements.columns` under its name.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
-
-import numpy as np
-from scipy.spatial.transform import Rotation
 
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER, TIME, Quantity
 
@@ -27,7 +22,6 @@ class Columns:
     meaning: str = ""  # for messages and help
     unit: str = ""  # in tables that we write
     needed: bool = False  # whether a table must have these columns
-    turns: Callable[[np.ndarray], Rotation] | None = None  # rotations of their numbers (n, k)
 
     @property
     def written(self) -> list[str]:
@@ -39,19 +33,10 @@ POSITIONS = Columns(
     "positions", ("x", "y", "z"), LENGTH, "position of the target in the instrument's frame", "mm"
 )
 QUATERNIONS = Columns(
-    "quaternions",
-    ("qx", "qy", "qz", "qw"),
-    NUMBER,
-    "its rotation, if measured: as a quaternion,",
-    turns=Rotation.from_quat,
+    "quaternions", ("qx", "qy", "qz", "qw"), NUMBER, "its rotation, if measured: as a quaternion,"
 )
 ROTATION_VECTORS = Columns(
-    "rotation_vectors",
-    ("rx", "ry", "rz"),
-    ANGLE,
-    "or as a rotation vector,",
-    "deg",
-    turns=Rotation.from_rotvec,
+    "rotation_vectors", ("rx", "ry", "rz"), ANGLE, "or as a rotation vector,", "deg"
 )
 ROLL_PITCH_YAW = Columns(
     "roll_pitch_yaw",
@@ -59,7 +44,6 @@ ROLL_PITCH_YAW = Columns(
     ANGLE,
     "or as rotations about the fixed axes x, y and z, as in URDF",
     "deg",
-    turns=partial(Rotation.from_euler, "xyz"),
 )
 ROTATIONS = QUATERNIONS, ROTATION_VECTORS, ROLL_PITCH_YAW
 TARGETS = Columns("targets", ("target",), NAME, "name of the target, if the tool has several")

@@ -9,9 +9,17 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import UnknownName
-from recalib.laboratory.tables.columns import QUATERNIONS, ROTATION_VECTORS, ROTATIONS
+from recalib.laboratory.tables.columns import QUATERNIONS, ROLL_PITCH_YAW, ROTATION_VECTORS
 
 _ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler angles; no axis twice in a row
+
+
+# from the numbers (n, k) in columns [rad, 1]
+TURNS = {
+    QUATERNIONS: Rotation.from_quat,
+    ROTATION_VECTORS: Rotation.from_rotvec,
+    ROLL_PITCH_YAW: partial(Rotation.from_euler, "xyz"),
+}
 
 
 @dataclass(frozen=True)
@@ -42,7 +50,7 @@ CONVENTIONS = {
 POSE = (*MATRIX[:3], "x", *MATRIX[3:6], "y", *MATRIX[6:], "z", *(f"last {n}" for n in range(4)))
 # conventions that the headings of a table reveal
 OWN = (
-    *(Convention(kind.headings, kind.turns) for kind in ROTATIONS if kind.turns),
+    *(Convention(columns.headings, turns) for columns, turns in TURNS.items()),
     *(Convention(("qw", "qx", "qy", "qz"), scalar_first), CONVENTIONS["matrix"]),
 )
 

@@ -21,12 +21,12 @@ from recalib.laboratory.tables.columns import (
     POSITIONS,
     QUATERNIONS,
     ROTATION_VECTORS,
-    ROTATIONS,
     SOCKETS,
     TARGETS,
     TIMES,
     Columns,
 )
+from recalib.laboratory.tables.conventions import TURNS
 from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.table import Table, named, read_table, table_of, table_text
 from recalib.nominal.kinematics import Arm
@@ -241,7 +241,7 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
 
     Raises InvalidFile if columns contradict each other, or are useless.
     """
-    turns = [kind for kind in ROTATIONS if kind.name in given]
+    turns = [kind for kind in TURNS if kind.name in given]
     positions = given.get(POSITIONS.name)
     if ERRORS.name in given:
         if NOMINAL.name not in given or positions is not None:
@@ -256,7 +256,6 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
     if positions is None:
         raise InvalidFile(path, "it has rotations without positions; expected: also x, y, z")
     (kind,) = turns
-    assert kind.turns is not None
     with np.errstate(over="ignore"):  # an infinite length is refused below
         lengths = np.linalg.norm(given[kind.name], axis=1)
     if kind is QUATERNIONS and (wrong := np.abs(lengths - 1) > SKEW).any():
@@ -264,6 +263,6 @@ def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
         found = f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; expected: 1"
         raise InvalidFile(path, found)
     poses = np.tile(np.eye(4), (len(positions), 1, 1))
-    poses[:, :3, :3] = kind.turns(given[kind.name]).as_matrix()
+    poses[:, :3, :3] = TURNS[kind](given[kind.name]).as_matrix()
     poses[:, :3, 3] = positions
     return poses
