@@ -84,6 +84,8 @@ def read_poses(
         text = text.replace(",", ".").replace(";", ",")
     lines = [*filter(_cells, _LABEL.sub("", text).splitlines())]
     lines = [line for line in lines if _is_row(line) or len(_cells(line)) >= FEWEST] or lines
+    if not (rows or lines):
+        raise InvalidFile(path, "it is empty")
     if rows or _is_row(lines[0]):
         text = _headed(rows or [*map(_cells, lines)], Path(path), way)
     else:
@@ -120,7 +122,7 @@ def read_poses(
     table = replace(table, units=units)
     arrays = table.read((*layout, PICTURES), [*table.cells])
     turns, valid = arrays["turns"], NORMS.get(len(way.headings))
-    if valid and (off := np.abs(np.linalg.norm(turns, axis=1) / valid - 1) > SKEW).any():
+    if valid and (off := ~(np.abs(np.linalg.norm(turns, axis=1) / valid - 1) <= SKEW)).any():
         found = f"has the norm {np.linalg.norm(turns, axis=1)[off][0]:.3g}"
         raise InvalidFile(
             path, f"the rotation in row {off.argmax() + 1} {found}; expected: {valid:.3g}"
@@ -156,7 +158,7 @@ def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
     least = (
         4 if max(map(len, rows)) == 4 else 2
     )  # fewer whole numbers count the poses, or number one
-    rows = [row for row in rows if len(row) >= least or not all(map(str.isdigit, row))]
+    rows = [row for row in rows if len(row) >= least or not all(map(str.isdigit, row))] or rows
     ahead: list[list[str]] = []  # columns of names and times
     words = [[cell for cell in row if _LETTERS.search(_NAN.sub("", cell))] for row in rows]
     if {*map(len, words)} == {1}:

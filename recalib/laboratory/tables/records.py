@@ -28,6 +28,7 @@ _TURN = re.compile(
 )
 _VECTOR = re.compile("rvec|rotvec|rotation_vec")  # [rad]
 _CAPITAL, _STUCK = r"(?<=[a-z])(?=[A-Z])", r"(?<=(?<![a-z])[tprq])(?=([xyzw]|\d\d?)$)"
+_UNSEEN = re.compile(r"\W*|\D*\b(nan|none)\b\D*", re.IGNORECASE)  # a target
 _REAL = re.compile(r"\d\.\d")
 _AXIS = re.compile(r"(?:(.*)[_./ \[])?([xyzw]|\d\d?)\]?")
 
@@ -45,19 +46,24 @@ def poses_in(tree: Any, targets: bool, headings: Sequence[str]) -> Iterator[list
         if len(cells) - len(words) in COUNTS and words == [*filter(NAMED.search, words)][:1]:
             yield cells
         else:
-            yield from chain(*(poses_in(part, targets, headings) for part in tree))
+            whole = [*filter(_has_target, tree)] or tree
+            yield from chain(*(poses_in(part, targets, headings) for part in whole))
     if not isinstance(tree, dict):
         return
     parts = _parts(tree, headings)
     sizes = {name: len(_flat(part)) for name, part in parts.items()}
-    unseen = {name for name, part in parts.items() if {*map(str, _flat(part))} <= {"None", "nan"}}
-    if any(map(_OF_TARGETS.search, unseen)):
+    if any(
+        _OF_TARGETS.search(name) and _UNSEEN.fullmatch(str(part)) for name, part in parts.items()
+    ):
         return
     found: dict[str, list[list[str]]] = {}
     for place, turn in _pairs(sizes):
-        numbers = (np.array(_flat(parts.pop(name)), float) for name in (place, turn))
-        places, turns = (each.reshape(sizes[place] // 3, -1) for each in numbers)
-        found[place] = _joined(places, turns, turn)
+        both = [[*map(str, _flat(parts.pop(name)))] for name in (place, turn)]
+        places, turns = (
+            np.reshape([*map(number_in, each)], (sizes[place] // 3, -1)) for each in both
+        )
+        good = np.isfinite(places).all() and np.isfinite(turns).all()
+        found[place] = _joined(places, turns, turn) if good else [[*chain(*both)]]
     for name, part in parts.items():
         if not _TURN.search(name) or sizes[name] not in (6, 7):  # else they are joints
             found[name] = [*poses_in(part, targets, headings)]
@@ -73,6 +79,14 @@ def poses_in(tree: Any, targets: bool, headings: Sequence[str]) -> Iterator[list
     unread = any(len(_REAL.findall(str(parts.get(name)))) >= COUNTS[0] for name in ours)
     some = unread or any(named[name] for name in ours)
     yield from chain(*(named[name] for name in (ours if some else named)))
+
+
+def _has_target(part: Any) -> bool:
+    named = part.items() if isinstance(part, dict) else ()
+    return any(
+        _OF_TARGETS.search(str(name).lower()) and isinstance(each, list | dict)
+        for name, each in named
+    )
 
 
 def in_order(name: str) -> list[str | int]:
@@ -99,7 +113,7 @@ def _pairs(sizes: dict[str, int]) -> Iterator[tuple[str, str]]:
 
 def _joined(places: np.ndarray, turns: np.ndarray, name: str) -> list[list[str]]:
     """Rows of positions (n, 3) and matrices, or rotations as they are if the name does not tell."""
-    if found := re.search("wxyz|xyzw", name):
+    if (found := re.search("wxyz|xyzw", name)) and turns.shape[1] == 4:
         scale = np.linalg.norm(turns, axis=1)[:, None, None]  # which is checked later
         turns = scale * Rotation.from_quat(turns, scalar_first=found[0] == "wxyz").as_matrix()
     elif _VECTOR.search(name) and turns.shape[1] == 3:
