@@ -84,8 +84,7 @@ def poses_in(tree: Any, targets: bool, headings: Sequence[str]) -> Iterator[list
 def _has_target(part: Any) -> bool:
     named = part.items() if isinstance(part, dict) else ()
     return any(
-        _OF_TARGETS.search(str(name).lower()) and isinstance(each, list | dict)
-        for name, each in named
+        _OF_TARGETS.search(str(name).lower()) and _REAL.search(str(it)) for name, it in named
     )
 
 
