@@ -17,7 +17,7 @@ from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction import BASE, INSTRUMENT, load_correction
-from recalib.laboratory.hand_eye.pose_table import convention_of, read_poses
+from recalib.laboratory.hand_eye.pose_table import read_poses
 from recalib.laboratory.live.allowed import Box
 from recalib.laboratory.options import BOARD, BY_POSES, CONE, DONE, IN_HAND, NO_BETTER, OF_ARMS
 from recalib.laboratory.propose import propose, useful
@@ -25,6 +25,7 @@ from recalib.laboratory.reaching import Goals
 from recalib.laboratory.report.folder import files_of
 from recalib.laboratory.report.warnings_of_commands import warnings_of
 from recalib.laboratory.tables.columns import TARGETS
+from recalib.laboratory.tables.conventions import convention_of
 from recalib.laboratory.tables.description import within
 from recalib.laboratory.tables.measurements import pose_rows, postures_table, read_desired
 from recalib.laboratory.tables.table import read_table, table_text
@@ -71,7 +72,8 @@ def calibrate_poses(options: Options) -> int:
         given = options.pictures, options.board, options.lens, in_hand, print_progress
         shown: Any = laboratory.pictures_at(flange, *given)
     else:
-        settings = options.target_convention, options.unit, "targets" in inverse, True
+        unit = options.target_unit or options.unit
+        settings = options.target_convention, unit, "targets" in inverse, True
         shown = read_poses(options.targets, *settings)
     height = options.height and within("--height", options.height, LENGTH, 1e-4)
     files, good = laboratory.calibrate_poses(flange, shown, in_hand, height, print_progress)

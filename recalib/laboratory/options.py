@@ -19,7 +19,7 @@ WAYS = "ur, abb, kuka, fanuc, staubli, ros, matrix"
 BOARD, CONE = Path("board/board.toml"), "45 deg"
 BY_POSES = (
     *("pictures", "targets", "board", "lens", "convention", "target_convention", "height"),
-    *("camera", "unit", "inverse"),
+    *("camera", "unit", "target_unit", "inverse"),
 )  # options
 OF_ARMS = "tool", "base", "description", "recording"
 CALIBRATION = "folder of calibrate, or its correction.npz"
@@ -91,6 +91,8 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         group.add_argument(name, type=kind, help=text)
     group.add_argument("--camera", choices=CAMERAS, help=where)
     group.add_argument("--unit", choices=LENGTH.units, help="unit of positions, if not in headings")
+    text = "unit of the target's positions (default: that of --unit)"
+    group.add_argument("--target-unit", choices=LENGTH.units, help=text)
     text = "this table has the inverse poses: base in flange, or camera in target"
     group.add_argument("--inverse", choices=("flange", "targets"), action="append", help=text)
 

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.laboratory.hand_eye.pose_table import read_poses
 from tests.vision.hand_eye_cells import turned
+from tests.vision.test_hand_eye import written
 
 COUNT = 9
 
@@ -22,10 +23,42 @@ def parts(pose: np.ndarray) -> dict[str, dict[str, float]]:
     return {name: dict(zip(axes, map(float, each), strict=True)) for name, axes, each in both}
 
 
+def vector(pose: np.ndarray) -> list[float]:
+    return Rotation.from_matrix(pose[:3, :3]).as_rotvec().tolist()
+
+
 LAYOUTS = {  # the names of both poses, how each is written, and how it is read
     "MoveIt": ("effector_wrt_world", "object_wrt_sensor", lambda pose: pose.ravel().tolist(), None),
     "easy_handeye": ("robot", "tracking", parts, "ros"),
+    "OpenCV": ("arm", "cam", lambda p: {"rvec": vector(p), "tvec": p[:3, 3:].tolist()}, None),
+    "UR": ("tcpPose", "marker", lambda p: str([*p[:3, 3].tolist(), *vector(p)]), "ur"),
+    "R, t": ("tool", "tag", lambda p: {"R": p[:3, :3].tolist(), "t": p[:3, 3].tolist()}, None),
 }
+TEXTS = (  # how poses are written, headings, and what is around the numbers of a pose
+    ("ur", "", "pose = p[{}, {}, {}, {}, {}, {}]"),
+    ("kuka", "", "DECL POS P1={{X {},Y {},Z {},A {},B {},C {},S 2,E1 0.0}}"),
+    (
+        "fanuc",
+        "",
+        "P[1]{{\nX = {} mm, Y = {} mm, Z = {} mm,\nW = {} deg, P = {} deg, R = {} deg}};",
+    ),
+    (
+        "abb",
+        "",
+        "CONST robtarget p:=[[{},{},{}],[{},{},{},{}],[0,0,1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];",
+    ),
+    ("ur", "", "1.5 {} {} {} {} {} {}"),  # after the time
+    ("ros", "", "1.png {} {} {} {} {} {} {}"),
+    ("matrix", "", "Pose 3:\n{},{},{},{}\n{},{},{},{}\n{},{},{},{}\n0,0,0,1\n,,,"),
+    ("matrix", "", "1 1 2\n{} {} {} {}\n{} {} {} {}\n{} {} {} {}\n0 0 0 1"),
+    ("matrix", "", "T1 = [{} {} {} {}; {} {} {} {}; {} {} {} {}; 0 0 0 1];"),
+    *((way, "", "{} {} {} {} {} {}") for way in ("staubli", "ZYZ", "xyx", "YXZ")),
+    ("ros", "x y z qx qy qz qw", "{} {} {} {} {} {} {}"),
+    ("ros", "time,tx,ty,tz,qx,qy,qz,qw", "1.5,{},{},{},{},{},{},{}"),
+    ("ros", "pos_x\tpos_y\tpos_z\tq_x\tq_y\tq_z\tq_w", "{}\t{}\t{}\t{}\t{}\t{}\t{}"),
+    ("ros", "#t,p_RS_x [m],p_RS_y [m],p_RS_z [m],q_x,q_y,q_z,q_w", "1.5,{},{},{},{},{},{},{}"),
+    ("abb", "X;Y;Z;Q1;Q2;Q3;Q4", "{};{};{};{};{};{};{}"),
+)
 seeds = given(st.integers(0, 10_000))
 few = settings(max_examples=5, deadline=None)
 
@@ -48,28 +81,27 @@ def drawn(seed: int) -> np.ndarray:
 def test_samples(ours, theirs, write, way, home, seed):
     flange, board = drawn(seed), drawn(seed + 1)
     pairs = zip(map(write, flange), map(write, board), strict=True)
-    samples = [{ours: one, theirs: other} for one, other in pairs]
-    Path("samples.yaml").write_text(
-        yaml.safe_dump({"samples": samples} if way else samples, sort_keys=False)
-    )
+    samples = [{"joints": [0.5] * 6, ours: one, theirs: other} for one, other in pairs]
+    unseen = {theirs: None} if seed % 2 else {}
+    samples.insert(seed % COUNT, {ours: write(flange[0])} | unseen)
+    tree = {"samples": samples} if way else samples
+    Path("samples.yaml").write_text(yaml.safe_dump(tree, sort_keys=False))
     for targets, poses in ((False, flange), (True, board)):
-        read = read_poses("samples.yaml", targets=targets).poses
+        read = read_poses("samples.yaml", way, targets=targets).poses
         assert read == pytest.approx(poses, abs=1e-9)
 
 
-@pytest.mark.parametrize("layout", ["ViSP", "OpenCV", "text", "JSON"])
+@pytest.mark.parametrize("layout", ["ViSP", "OpenCV", "text", "JSON", "HALCON"])
 @seeds
 @few
 def test_a_file_for_each_picture(layout, home, seed):
     """Numbers have gaps, and 10 is after 9."""
     numbers = np.sort(np.random.default_rng(seed).choice(30, COUNT, replace=False))
-    for path in Path().iterdir():
-        path.unlink()
-    poses = drawn(seed)
+    poses, folder = drawn(seed), f"{layout}{seed}"
     for number, pose in zip(numbers, poses, strict=True):
-        file = Path(f"pose_{number}.yaml")
-        turn = Rotation.from_matrix(pose[:3, :3]).as_rotvec()
-        rows = "".join(f"  - [{one:.9g}]\n" for one in (*pose[:3, 3], *turn))
+        file = Path(folder, f"pose {number}", "pose.yaml")
+        file.parent.mkdir(parents=True, exist_ok=True)
+        rows = "".join(f"  - [{one:.9g}]\n" for one in (*pose[:3, 3], *vector(pose)))
         if layout == "ViSP":
             file.write_text(f"rows: 6\ncols: 1\ndata: \n{rows}")
         elif layout == "OpenCV":
@@ -77,25 +109,24 @@ def test_a_file_for_each_picture(layout, home, seed):
             file.write_text(f"{head}   data: {pose.ravel().tolist()}")
         elif layout == "JSON":
             file.write_text(str({"pose": pose.tolist()}).replace("'", '"'))
+        elif layout == "HALCON":
+            angles = Rotation.from_matrix(pose[:3, :3]).as_euler("XYZ", degrees=True)
+            lines = "# type\nf 0\n# degrees:\nr {} {} {}\n\n# metres:\nt {} {} {}\n"
+            file.write_text(lines.format(*angles, *pose[:3, 3]))
         else:
             np.savetxt(file, pose[:3])
-    table = read_poses("pose_*.yaml", "ur" if layout == "ViSP" else None)
+    table = read_poses(f"{folder}/*/pose.yaml", "ur" if layout == "ViSP" else None)
     assert table.poses == pytest.approx(poses, abs=1e-7)
 
 
-def test_a_table_of_other_separators_and_brackets(home):
-    poses = drawn(3)
-    rows = np.concatenate(
-        [1e3 * poses[:, :3, 3], Rotation.from_matrix(poses[:, :3, :3]).as_quat(scalar_first=True)],
-        axis=1,
-    )
-    Path("robtargets").write_text(
-        "\n".join(
-            f"[{row[:3].tolist()},{row[3:].tolist()},[0,0,1,0],[9E9" + ",9E9" * 5 + "]]"
-            for row in rows
-        )
-    )
-    semicolons = "\n".join(";".join(map(str, row)).replace(".", ",") for row in rows)
-    Path("semicolons").write_text(f"X;Y;Z;Q1;Q2;Q3;Q4\n{semicolons}")
-    for name in ("robtargets", "semicolons"):
-        assert read_poses(name, "abb").poses == pytest.approx(poses, abs=1e-9)
+@pytest.mark.parametrize(("way", "headings", "text"), TEXTS)
+@seeds
+@few
+def test_texts(way, headings, text, home, seed):
+    poses = drawn(seed)
+    rows = poses[:, :3].reshape(-1, 12).tolist()
+    rows = rows if way == "matrix" else [line.split() for line in written(poses, way).splitlines()]
+    whole = "\n".join([*filter(None, [headings]), *(text.format(*row) for row in rows)])
+    Path("poses.txt").write_text(whole.replace(".", ",") if ";Q1" in headings else whole)
+    known, unit = (None, "m") if headings and way == "ros" else (way, None)
+    assert read_poses("poses.txt", known, unit).poses == pytest.approx(poses, abs=1e-7)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import numpy as np
 
@@ -34,6 +34,7 @@ from recalib.vision.views import optics_of, sighting
 
 HAND_EYE, POSES = "hand_eye.toml", "poses.csv"
 ROUNDS, SETTLED = 4, 0.3  # of the lens; the largest step at convergence, in deviations
+SAME = 1e-5  # m: poses that differ by less are copies
 MOST = 1 / 3  # of the poses: if more are outliers, the result cannot be trusted
 
 
@@ -51,7 +52,8 @@ def pictures_at(
     """
     table = flange.table
     names = [path.name for path in pictures_in(folder)] if folder.is_dir() else []
-    cells = next((each for each in table.cells.values() if {*each} <= {*names}), None)
+    bare = ([PureWindowsPath(cell).name for cell in each] for each in table.cells.values())
+    cells = next((each for each in bare if {*each} <= {*names}), None)
     if cells is None and PICTURE not in table and len(names) != len(flange):
         counts = f"it has {counted(len(flange), 'row')}, and {folder} has {len(names)} pictures"
         raise InvalidFile(table.path, f"{counts}; try: a column 'picture' with their names")
@@ -82,6 +84,10 @@ def calibrate_poses(
         if len(flange) != len(targets):
             valid = f"expected: {len(flange)}, as in {flange.table.path.name}"
             raise InvalidFile(targets.table.path, f"it has {counted(len(targets), 'row')}; {valid}")
+        if np.allclose(flange.poses, targets.poses, atol=SAME):
+            same = f"it has the same poses as {flange.table.path.name}"
+            valid = "the target's in the camera; both are told apart by names such as 'target'"
+            raise InvalidFile(targets.table.path, f"{same}; expected: {valid}")
         flanges = {f"{name} of the flange": cells for name, cells in flange.table.cells.items()}
         check_copies(replace(targets.table, cells={**flanges, **targets.table.cells}))
     else:

@@ -16,9 +16,10 @@ import numpy as np
 from recalib.files.quantities import LENGTH
 from recalib.identification.hand_eye import ONE_AXIS, starts
 from recalib.identification.model.hand_eye_model import HandEye, Sights
-from recalib.laboratory.hand_eye.pose_table import PoseTable, other_readings
+from recalib.laboratory.hand_eye.pose_table import PoseTable
 from recalib.laboratory.plausibility.mistakes import Mistaken
 from recalib.laboratory.plausibility.steps import UNITS
+from recalib.laboratory.tables.conventions import other_readings
 from recalib.spelling import counted
 
 FEWEST = 6  # poses: each has 6 numbers, for 12 unknowns
@@ -30,6 +31,7 @@ OPEN = 0.05, np.radians(5)  # m, rad: a result with a larger deviation is useles
 LOOSE = 1e-2  # of the largest singular value: smaller ones leave a direction undetermined
 OPEN_SIZE = 0.1  # component of such a direction along the scale: then the scale is undetermined
 SIZE, SURE = 0.015, 5.0  # smallest error of a scale to report: relative, and in deviations
+SPREAD, DISTANCE = 0.2, 0.7  # m, usual: of positions from their median; from camera to board
 HELD, LONGER = 0.3, 2.0  # m; ratio of distances: an object on a flange is seldom farther away
 BEHIND = -0.5  # z in the camera over the distance: the board is behind the camera
 MIRROR = np.diag([1.0, 1.0, -1.0, 1.0])
@@ -45,7 +47,7 @@ def check_motion(sights: Sights) -> None:
     if distance < NEAREST:
         raise Mistaken(
             f"the board is {1e3 * distance:.2g} mm from the camera; expected: at least"
-            f" {1e3 * NEAREST:.0f} mm; try: --unit, or another unit in the heading"
+            f" {1e3 * NEAREST:.0f} mm; try: --target-unit, or another unit in the heading"
         )
     (most, second, _), axes = sights.axes
     if most < ALIKE:
@@ -70,8 +72,8 @@ def check_fit(found: HandEye, flange: PoseTable, targets: PoseTable | None) -> N
     fits = remaining < WRONG
     sizes = map(board_size, [found] if fits else [found, *starts(found.sights)])
     scale, deviation, error = min(sizes, key=lambda size: size[2])
-    if fits or (error < EXPLAINED * remaining and deviation < SIZE):
-        _check_size(scale, deviation, SIZE if fits else 0.0)
+    if fits or (error < EXPLAINED * remaining and deviation < SIZE * scale):
+        _check_size(found, scale, deviation, SIZE if fits else 0.0, targets is not None)
     if not fits:
         _check_height(found.sights, remaining)
         _check_readings(found.sights, flange, targets, remaining)
@@ -126,20 +128,35 @@ def board_size(found: HandEye) -> tuple[float, float, float]:
     return scale, float(np.sqrt(spread)), remaining / scale if scale > 0 else np.inf
 
 
-def _check_size(scale: float, deviation: float, least: float) -> None:
-    """Raise Mistaken if positions and the board differ in scale, by `least` or more."""
+def _check_size(found: HandEye, scale: float, deviation: float, least: float, table: bool) -> None:
+    """Raise Mistaken if positions and the board differ in scale, by `least` or more.
+
+    Args:
+        table: whether the board's poses are from a table, whose positions may be wrong, too.
+    """
     if abs(scale - 1) < max(least, SURE * deviation):
         return
+    places = found.sights.flange[:, :3, 3]
+    spread = np.median(np.linalg.norm(places - np.median(places, axis=0), axis=1))
+    distance = np.median(np.linalg.norm(found.sights.board[:, :3, 3], axis=1))
+    # the table whose size is farther from that of most cells
+    theirs = table and abs(np.log(distance / DISTANCE)) > abs(np.log(spread / SPREAD))
+    name, option = ("target", "--target-unit") if theirs else ("flange", "--unit")
     for factor, words in UNITS.items():
-        if abs(scale * factor - 1) < 0.1:
+        if abs((1 / scale if theirs else scale) * factor - 1) < 0.1:
             raise Mistaken(
-                f"the flange's positions are likely {words}: by these, the board is {scale:.3g}"
-                " times as large as described; try: --unit, or another unit in the heading"
+                f"the {name}'s positions are likely {words}: by those of the flange, the board is"
+                f" {scale:.3g} times as large as described; try: {option}, or another unit in the"
+                " heading"
             )
+    differs = f"{100 * abs(scale - 1):.1f} % (deviation {100 * deviation:.1g} %)"
+    differs += f" {'larger' if scale > 1 else 'smaller'} than"
+    valid, lengths = "described", "lengths in --board"
+    if table:
+        valid, lengths = "by the target's positions", "these"
     raise Mistaken(
-        f"according to the flange's positions, the board is {100 * abs(scale - 1):.1f} % (deviation"
-        f" {100 * deviation:.1g} %) {'larger' if scale > 1 else 'smaller'} than described; try:"
-        f" lengths in --board times {scale:.4g}, after measuring a square"
+        f"according to the flange's positions, the board is {differs} {valid}; try:"
+        f" {lengths} times {scale:.4g}, after measuring a square"
     )
 
 

@@ -1,10 +1,10 @@
-"""Poses in YAML and JSON of other programs, and in a file each, as rows of numbers."""
+"""Files of poses: their text, or rows of cells from YAML, JSON, exports, and a file each."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Sequence
 from contextlib import suppress
-from itertools import chain
-from typing import Any
+from glob import glob
+from pathlib import Path
 
 import numpy as np
 import yaml
@@ -13,60 +13,58 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from recalib.errors import InvalidFile
 from recalib.files.outputs import AnyPath
 from recalib.files.storage import path_of, read_file
-from recalib.laboratory.tables.table import MOST, number_in
+from recalib.laboratory.tables.records import BETWEEN, BRACKETS, in_order, poses_in
+from recalib.laboratory.tables.table import MOST
 from recalib.vision.lenses import OF_OPENCV
 
 MOST_TREE = 2_000_000  # bytes of YAML or JSON
-COUNTS = 6, 7, 12, 16  # numbers of a pose
-_COMMENT = re.compile(r"^\s*(#|%|//|---).*\n?", re.MULTILINE)
-_OF_TARGETS = re.compile("object|target|track|optical|marker|board|cam|eye")  # in names of samples
-_ROS = ("translation", "rotation"), ("position", "orientation")
+_COMMENT = re.compile(r"(^[ \t]*(#|%|//)|[ \t]+#).*", re.MULTILINE)
+_HEADER = re.compile(r"\A[#%]\s*(?=([^\n,]*,){6})")  # headings in a comment
+_NUMBER = r"([-+]?[\d.]+(?:e[-+]?\d+)?)"
+_HALCON = re.compile(rf"\s*f\s+([02])\s+r{(three := 3 * (' ' + _NUMBER))}\s+t{three}\s*")
+_AXES = {"0": "XYZ", "2": "xyz"}  # of HALCON's types of poses
 
 
-def read_text(path: AnyPath, targets: bool) -> tuple[str, list[list[str]]]:
-    """The text of a file, and its poses if it is YAML or JSON; or those in files with one each.
+def read_text(path: AnyPath, targets: bool, headings: Sequence[str]) -> tuple[str, list[list[str]]]:
+    """The text of a file, and its poses if it is no table; or those in files with one each.
 
-    A pattern stands for files in the order of the numbers in their names. If samples have two
-    poses, those of the target are read if `targets`, else the flange's.
+    A pattern stands for files in the order of the numbers in their names. See `poses_in`.
     """
     files, text, rows = [path_of(path)], "", []
     if files[0].is_dir():
         raise InvalidFile(path, "it is a folder; try: a pattern in quotes, such as 'poses/*.yaml'")
     if each := not files[0].exists() and "*" in str(path):
-        found = files[0].parent.glob(files[0].name)
-        files = sorted(found, key=lambda file: [*map(int, re.findall(r"\d+", file.name))])
+        files = [*map(Path, sorted(glob(str(path)), key=in_order))]
+        if not files:
+            raise InvalidFile(path, "no file has such a name")
     for file in files:
         if b"\0" in (content := read_file(file, MOST)):
             valid = "text, as by numpy.savetxt(FILE, poses.reshape(-1, 16))"
             raise InvalidFile(file, f"it is binary; expected: {valid}")
-        text = _COMMENT.sub("", content.decode("utf-8-sig", "replace"))
+        text = _COMMENT.sub("", _HEADER.sub("", content.decode("utf-8-sig", "replace")))
         poses: list[list[str]] = []
         if len(text) < MOST_TREE and "&" not in text:  # anchors can be repeated without an end
+            tree = re.sub(r"\}\s*\n\s*\{", "}\n---\n{", OF_OPENCV.sub("", text).replace("\t", " "))
             with suppress(ValueError, TypeError, KeyError, RecursionError, yaml.YAMLError):
-                poses = [*_poses_in(yaml.safe_load(OF_OPENCV.sub("", text)), targets)]
-        rows += poses or [re.split(r"[\s,;]+", text.strip())] * each
+                poses = [*poses_in([*yaml.safe_load_all(tree)], targets, headings)]
+        numbers = BETWEEN.split(BRACKETS.sub(" ", text).strip())
+        if not any(numbers):
+            raise InvalidFile(file, "it is empty")
+        rows += poses or _labelled(text, headings) or [numbers] * each
+        if not rows and file.suffix.lower() in (".json", ".yaml", ".yml", ".xml"):
+            valid = "lists of 12 or 16 numbers, or 'translation' and 'rotation'; try: --convention"
+            raise InvalidFile(file, f"it has no poses; expected: {valid}")
     return text, rows
 
 
-def _poses_in(tree: Any, targets: bool) -> Iterator[list[str]]:
-    """The numbers of each pose in the content of a YAML or JSON file."""
-    if isinstance(tree, list):
-        numbers = [*map(str, _flat(tree))]
-        if len(numbers) in COUNTS and np.isfinite([*map(number_in, numbers)]).all():
-            yield numbers
-        else:
-            yield from chain(*(_poses_in(part, targets) for part in tree))
-    elif isinstance(tree, dict):
-        if names := next((names for names in _ROS if tree.keys() >= {*names}), None):
-            place, turn = (
-                [tree[name][axis] for axis in "xyzw"[: 3 + at]] for at, name in enumerate(names)
-            )
-            pose = RigidTransform.from_components(place, Rotation.from_quat(turn))
-            yield [*map(repr, pose.as_matrix()[:3].ravel().tolist())]
-        parts = {str(name).lower(): [*_poses_in(part, targets)] for name, part in tree.items()}
-        ours = [parts[name] for name in parts if bool(_OF_TARGETS.search(name)) == targets]
-        yield from chain(*(ours if any(ours) else parts.values()))
-
-
-def _flat(tree: Any) -> list[Any]:
-    return [*chain(*map(_flat, tree))] if isinstance(tree, list) else [tree]
+def _labelled(text: str, headings: Sequence[str]) -> list[list[str]]:
+    """Poses whose numbers follow their names, as in `X 1.5, Y -2`, or HALCON's; none without."""
+    if found := _HALCON.fullmatch(text):
+        turn, place = np.array(found.groups()[1:], float).reshape(2, 3)
+        rotation = Rotation.from_euler(_AXES[found[1]], turn, degrees=True)
+        pose = RigidTransform.from_components(place, rotation).as_matrix()
+        return [[*map(repr, pose[:3].ravel().tolist())]]
+    before = (rf"(?i)(?<![\w.]){name}[\s:=]+{_NUMBER}" for name in (*"xyz", *headings))
+    columns = [re.findall(each, text) for each in before]
+    same = headings and len({*map(len, columns)}) == 1
+    return [[*row] for row in zip(*columns, strict=True)] if same else []

@@ -1,100 +1,38 @@
-"""Tables of poses from a controller or a camera, and the conventions in which they write poses."""
+"""Tables of poses from a controller or a camera."""
 
 import re
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import chain
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from recalib.errors import InvalidFile, UnknownName
+from recalib.errors import InvalidFile
 from recalib.files.outputs import AnyPath
 from recalib.files.quantities import ANGLE, LENGTH, NUMBER
 from recalib.laboratory.hand_eye.pose_files import read_text
-from recalib.laboratory.tables.columns import (
-    PICTURES,
-    POSITIONS,
-    QUATERNIONS,
-    ROTATION_VECTORS,
-    Columns,
+from recalib.laboratory.tables.columns import PICTURE, PICTURES, POSITIONS, Columns
+from recalib.laboratory.tables.conventions import (
+    CONVENTIONS,
+    MATRIX,
+    OWN,
+    POSE,
+    Convention,
+    convention_of,
 )
-from recalib.laboratory.tables.measurements import TURNS
+from recalib.laboratory.tables.records import BETWEEN, BRACKETS, NAMED, poses_in
 from recalib.laboratory.tables.table import Table, number_in, table_of
 from recalib.spelling import listed
 
 NORMS = {4: 1.0, 9: 3**0.5}  # of quaternions and of rotation matrices, by their count of numbers
 SKEW = 0.02  # relative error of a norm, from rounding
-_BETWEEN, _BRACKETS = re.compile(r"[\s,;]+"), re.compile(r"[\[\](){}]")
+_LABEL = re.compile(r"^\s*[A-Za-z_][^\n\[\]{},;:=]*:?[:=]|\w*array(?=\()", re.MULTILINE)
+_LIST = re.compile(r"\[\s*[-.\d\[]")
 _LETTERS = re.compile(r"[a-df-zA-DF-Z]")  # without e, which is in 1e-3
 _NAN = re.compile(r"\b(nan|inf|infinity)\b", re.IGNORECASE)
+FEWEST = 6  # headings of a pose: fewer words are a remark
 _ALONE = "by such headings, or by numbers alone in this order, without headings"
-_ORDER = re.compile(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})")  # of Euler angles; no axis twice in a row
-
-
-@dataclass(frozen=True)
-class Convention:
-    """A way to write poses."""
-
-    headings: tuple[str, ...]  # of the rotation, in the controller's order
-    turns: Callable[[np.ndarray], Rotation]  # from the rotation's numbers (n, k) [rad, 1]
-    length: str = ""  # the unit of lengths in columns whose heading names none
-    angle: str = ""  # the unit of angles in columns whose heading names none
-
-
-def _euler(order: str, *headings: str) -> Convention:
-    return Convention(headings, partial(Rotation.from_euler, order), "mm", "deg")
-
-
-scalar_first = partial(Rotation.from_quat, scalar_first=True)
-MATRIX = tuple(f"r{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3))
-CONVENTIONS = {
-    "ros": Convention(QUATERNIONS.headings, Rotation.from_quat, "m"),
-    "ur": Convention(ROTATION_VECTORS.headings, Rotation.from_rotvec, "m", "rad"),
-    "abb": Convention(("q1", "q2", "q3", "q4"), scalar_first, "mm"),
-    "kuka": _euler("ZYX", "a", "b", "c"),
-    "fanuc": _euler("xyz", "w", "p", "r"),
-    "staubli": _euler("XYZ", "rx", "ry", "rz"),
-    "matrix": Convention(MATRIX, lambda rows: Rotation.from_matrix(rows.reshape(-1, 3, 3)), "m"),
-}
-POSE = (*MATRIX[:3], "x", *MATRIX[3:6], "y", *MATRIX[6:], "z", *(f"last {n}" for n in range(4)))
-# conventions that the headings of a table reveal
-OWN = (
-    *(Convention(columns.headings, turns) for columns, turns in TURNS.items()),
-    *(Convention(("qw", "qx", "qy", "qz"), scalar_first), CONVENTIONS["matrix"]),
-)
-
-
-def convention_of(name: str) -> Convention:
-    """The convention with this name, or with this order of Euler angles, such as ZYZ.
-
-    Capitals mean moving axes, as in SciPy. Raises UnknownName.
-    """
-    if _ORDER.fullmatch(name):
-        return _euler(name, "a", "b", "c")
-    if name.lower() not in CONVENTIONS:
-        raise UnknownName("convention", name, [*CONVENTIONS, "an order such as ZYZ or xyz"])
-    return CONVENTIONS[name.lower()]
-
-
-def other_readings(numbers: np.ndarray) -> Iterator[tuple[str, Rotation]]:
-    """Other meanings of the numbers (n, k) of rotations, in words, and the resulting rotations.
-
-    These include degrees that were read as radians, and radians that were read as degrees.
-    """
-    if numbers.shape[1] == 4:
-        yield "a quaternion w, x, y, z", scalar_first(numbers)
-        yield "a quaternion x, y, z, w", Rotation.from_quat(numbers)
-    if numbers.shape[1] == 9:
-        yield "transposed", Rotation.from_matrix(numbers.reshape(-1, 3, 3).swapaxes(1, 2))
-    if numbers.shape[1] == 3:
-        for scale, unit in ((1.0, ""), (np.pi / 180, " [deg]"), (180 / np.pi, " [rad]")):
-            yield f"a rotation vector{unit}", Rotation.from_rotvec(scale * numbers)
-            for order in ("ZYX", "xyz", "XYZ", "ZYZ", "ZXZ"):
-                axes = f"{'moving' if order.isupper() else 'fixed'} axes {', '.join(order.lower())}"
-                yield f"angles about the {axes}{unit}", Rotation.from_euler(order, scale * numbers)
 
 
 @dataclass(frozen=True)
@@ -140,13 +78,26 @@ def read_poses(
     rotation; UnknownName: an unknown convention.
     """
     way = None if convention is None else convention_of(convention)
-    text, rows = read_text(path, targets)
-    if rows or not _LETTERS.search(_NAN.sub("", text)):
-        text = _headed(rows or _rows(text), Path(path), way)
-    if ";" in text.partition("\n")[0]:  # then commas are decimal
+    headings = way.headings if way else ()
+    text, rows = read_text(path, targets, headings)
+    if ";" in (head := text.partition("\n")[0]) and not _LIST.search(head):  # commas are decimal
         text = text.replace(",", ".").replace(";", ",")
-    head, _, rest = text.partition("\n")
-    table = table_of(f"{head.lower()}\n{rest}".encode(), path)
+    lines = [*filter(_cells, _LABEL.sub("", text).splitlines())]
+    lines = [line for line in lines if _is_row(line) or len(_cells(line)) >= FEWEST] or lines
+    if not (rows or lines):
+        raise InvalidFile(path, "it is empty")
+    if rows or _is_row(lines[0]):
+        text = _headed(rows or [*map(_cells, lines)], Path(path), way)
+    else:
+        text = _separated(lines)
+    table = table_of(text.encode(), path)
+    lengths = {unit for unit in table.units.values() if unit in LENGTH.units}
+    if "x" not in table and len(lengths) < 2 and "deg" not in table.units.values():
+        cells = zip(*table.cells.values(), strict=True)
+        records = [dict(zip(table.cells, row, strict=True)) for row in cells]
+        if rows := [*poses_in(records, targets, headings)]:
+            table = table_of(_headed(rows, Path(path), way).encode(), path)
+            unit = unit or next(iter(lengths), None)
     if way is None or MATRIX[0] in table:
         way = next((own for own in OWN if all(name in table for name in own.headings)), None)
     if way is None:
@@ -164,12 +115,14 @@ def read_poses(
     places = [abs(number_in(cell)) for cell in table.cells.get("x", ())]
     if unit is None and units["x"] == "m" and np.max(places, initial=0) > LENGTH.farthest:
         raise InvalidFile(
-            path, f"x in row 1 is {table.cells['x'][0]} m. Is its unit right? Try: --unit mm"
+            path,
+            f"x in row 1 is {table.cells['x'][0]} m. Is its unit right? Try:"
+            f" --{'target-' * targets}unit mm",
         )
     table = replace(table, units=units)
     arrays = table.read((*layout, PICTURES), [*table.cells])
     turns, valid = arrays["turns"], NORMS.get(len(way.headings))
-    if valid and (off := np.abs(np.linalg.norm(turns, axis=1) / valid - 1) > SKEW).any():
+    if valid and (off := ~(np.abs(np.linalg.norm(turns, axis=1) / valid - 1) <= SKEW)).any():
         found = f"has the norm {np.linalg.norm(turns, axis=1)[off][0]:.3g}"
         raise InvalidFile(
             path, f"the rotation in row {off.argmax() + 1} {found}; expected: {valid:.3g}"
@@ -183,39 +136,63 @@ def read_poses(
     return PoseTable(table, arrays["positions"], rotations, turns, inverted)
 
 
-def _rows(text: str) -> list[list[str]]:
-    lines = (line.strip(" \t\r,;") for line in _BRACKETS.sub(" ", text).splitlines())
-    return [_BETWEEN.split(line) for line in lines if line]
+def _cells(line: str) -> list[str]:
+    return [cell for cell in BETWEEN.split(BRACKETS.sub(" ", line)) if cell]
+
+
+def _is_row(line: str) -> bool:
+    """Whether a line has numbers, and is no heading."""
+    numbers = any(np.isfinite(number_in(cell)) for cell in _cells(line))
+    return numbers or not _LETTERS.search(_NAN.sub("", line))
+
+
+def _separated(lines: list[str]) -> str:
+    """The text of a table with headings in small letters, and commas between cells."""
+    head = re.sub(r"\((mm|cm|m|deg|rad)\)", r"[\1]", re.sub("^(?=,)", "row", lines[0].lower()))
+    between = r"(?!)" if "," in head else "\t" if "\t" in head else r"[ \t]+"
+    return re.sub(rf"(?<=\S){between}(?=\S)", ",", "\n".join([head, *lines[1:]]))
 
 
 def _headed(rows: list[list[str]], path: Path, way: Convention | None) -> str:
     """Add headings to numbers alone: a pose in each row, or a matrix in each three or four."""
-    if len(rows) > 1 and len(rows[0]) == 1:  # the number of poses that follow
-        rows = rows[1:]
+    least = (
+        4 if max(map(len, rows)) == 4 else 2
+    )  # fewer whole numbers count the poses, or number one
+    rows = [row for row in rows if len(row) >= least or not all(map(str.isdigit, row))] or rows
+    ahead: list[list[str]] = []  # columns of names and times
+    words = [[cell for cell in row if _LETTERS.search(_NAN.sub("", cell))] for row in rows]
+    if {*map(len, words)} == {1}:
+        ahead = [[PICTURE if NAMED.search(words[0][0]) else "name", *chain(*words)]]
+        rows = [
+            [cell for cell in row if cell not in word]
+            for row, word in zip(rows, words, strict=True)
+        ]
     if {len(row) for row in rows} == {4}:
         lasts = *rows, [row[-1] for row in rows[:4]]  # the last column, if they are transposed
         high = 4 if any([*map(number_in, last)] == [0, 0, 0, 1] for last in lasts) else 3
         rows = [[*chain(*rows[first : first + high])] for first in range(0, len(rows), high)]
-    if not rows:
-        raise InvalidFile(path, "it is empty")
     if len({len(row) for row in rows}) > 1:
         raise InvalidFile(path, "its rows have different lengths; expected: a pose in each row")
     count, headings = len(rows[0]), [*POSE]
+    if way is CONVENTIONS["abb"] and count == 17:  # a robtarget, with configuration and other axes
+        rows, count = [row[:7] for row in rows], 7
+    fields = [*POSITIONS.headings, *(way.headings if way else ())]
+    begins = [number_in(row[0]) for row in rows]
+    if count - 1 in (12, 16, len(fields)) and count != len(fields) and (np.diff(begins) >= 0).all():
+        ahead, count = [*ahead, ["time", *(row[0] for row in rows)]], count - 1
+        rows = [row[1:] for row in rows]
     ends = [row[12:] for row in rows if [*map(number_in, row[12:])] != [0, 0, 0, 1]]
     if count == 16 and ends:
         found = f"the last row of a matrix is {' '.join(ends[0])}; expected: 0 0 0 1"
         raise InvalidFile(path, f"{found}; is it transposed?")
-    if way is CONVENTIONS["abb"] and count == 17:  # a robtarget, with configuration and other axes
-        rows, count = [row[:7] for row in rows], 7
     if count not in (12, 16):
         if way is None:
-            raise InvalidFile(path, "it has no headings; try: --convention or --target-convention")
-        headings = [*POSITIONS.headings, *way.headings]
-        begins = [number_in(row[0]) for row in rows]
-        if count == len(headings) + 1 and (np.diff(begins) >= 0).all():
-            headings = ["time", *headings]
+            valid = "try: --convention or --target-convention"
+            raise InvalidFile(path, f"it has {count} numbers in a row, without headings; {valid}")
+        headings = fields
         if count != len(headings):
             valid = f"{len(headings)}, {', '.join(headings)}"
             valid += "; does it have decimal commas?" * (count == 2 * len(headings))
             raise InvalidFile(path, f"it has {count} numbers in a row; expected: {valid}")
-    return "\n".join(",".join(row) for row in (headings[:count], *rows))
+    columns = [*ahead, *map(list, zip(headings[:count], *rows, strict=True))]
+    return "\n".join(map(",".join, zip(*columns, strict=True)))

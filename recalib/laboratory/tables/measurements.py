@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,13 +20,13 @@ from recalib.laboratory.tables.columns import (
     NOMINAL,
     POSITIONS,
     QUATERNIONS,
-    ROLL_PITCH_YAW,
     ROTATION_VECTORS,
     SOCKETS,
     TARGETS,
     TIMES,
     Columns,
 )
+from recalib.laboratory.tables.conventions import TURNS
 from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.table import Table, named, read_table, table_of, table_text
 from recalib.nominal.kinematics import Arm
@@ -38,13 +37,6 @@ SKEW = 0.01  # error of a quaternion's length, from rounding by the instrument
 COPIES = 0.1  # of the rows, at most: no instrument repeats itself so often to the last digit
 MOVED = 0.05  # rad, m: if two joints move by more, the target moves, too
 STILL = 1e-3  # rad, m: a joint that moves less might as well be held by its brake
-
-
-TURNS = {
-    QUATERNIONS: Rotation.from_quat,
-    ROTATION_VECTORS: Rotation.from_rotvec,
-    ROLL_PITCH_YAW: partial(Rotation.from_euler, "xyz"),
-}
 
 
 @dataclass(frozen=True)
