@@ -336,7 +336,7 @@ def test_what_cannot_be_is_named_in_one_sentence(fault, seed, in_hand, way):
 def test_mistakes_in_the_targets_are_named(in_hand, tables, tmp_path, capsys):
     flange = tables(cell := HandEyeCell(5, in_hand))
     for poses, message in (
-        (read_poses("poses.txt", "ros").poses, "it has the same poses as poses.txt"),
+        (read_poses("poses.txt", "ros").poses, "those of the board in the camera"),
         (scaled(0.1)(cell.board_poses(flange)), "the target's positions are likely in centimetres"),
     ):
         (tmp_path / "targets.txt").write_text(written(poses))

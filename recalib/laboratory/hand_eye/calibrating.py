@@ -34,7 +34,6 @@ from recalib.vision.views import optics_of, sighting
 
 HAND_EYE, POSES = "hand_eye.toml", "poses.csv"
 ROUNDS, SETTLED = 4, 0.3  # of the lens; the largest step at convergence, in deviations
-SAME = 1e-5  # m: poses that differ by less are copies
 MOST = 1 / 3  # of the poses: if more are outliers, the result cannot be trusted
 
 
@@ -84,10 +83,6 @@ def calibrate_poses(
         if len(flange) != len(targets):
             valid = f"expected: {len(flange)}, as in {flange.table.path.name}"
             raise InvalidFile(targets.table.path, f"it has {counted(len(targets), 'row')}; {valid}")
-        if np.allclose(flange.poses, targets.poses, atol=SAME):
-            same = f"it has the same poses as {flange.table.path.name}"
-            valid = "the target's in the camera; both are told apart by names such as 'target'"
-            raise InvalidFile(targets.table.path, f"{same}; expected: {valid}")
         flanges = {f"{name} of the flange": cells for name, cells in flange.table.cells.items()}
         check_copies(replace(targets.table, cells={**flanges, **targets.table.cells}))
     else:

@@ -23,6 +23,7 @@ from recalib.laboratory.tables.conventions import other_readings
 from recalib.spelling import counted
 
 FEWEST = 6  # poses: each has 6 numbers, for 12 unknowns
+SAME = 0.01  # m, rad: poses of flange and board that differ by less are the same data
 NEAREST = 0.02  # m: no camera can focus on a nearer board
 ALIKE = 2.0  # deg: orientations within it count as equal
 WRONG, HOPELESS = 5e-3, 50e-3  # m: largest misfit of most arms and cameras, and of any
@@ -39,10 +40,15 @@ TILT = "try: poses that are tilted by 20 deg or more, about two axes"
 
 
 def check_motion(sights: Sights) -> None:
-    """Raise Mistaken if poses are too few or turned too little, or the board is too near."""
+    """Raise Mistaken if poses are too few, the same, turned too little, or the board too near."""
     if len(sights) < FEWEST:
         found = f"{counted(len(sights), 'pose')} can be used"
         raise Mistaken(f"{found}; expected: at least {FEWEST}, better 15 or more")
+    if np.allclose(sights.flange, sights.board, rtol=0, atol=SAME):
+        raise Mistaken(
+            "the flange's poses in the base are those of the board in the camera; try: names such"
+            " as 'robot' and 'board' in a file with both"
+        )
     distance = float(np.median(np.linalg.norm(sights.board[:, :3, 3], axis=1)))
     if distance < NEAREST:
         raise Mistaken(

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from glob import glob
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import yaml
@@ -18,6 +19,7 @@ from recalib.laboratory.tables.table import MOST
 from recalib.vision.lenses import OF_OPENCV
 
 MOST_TREE = 2_000_000  # bytes of YAML or JSON
+TREES = ".json", ".yaml", ".yml", ".xml"
 _COMMENT = re.compile(r"(^[ \t]*(#|%|//)|[ \t]+#).*", re.MULTILINE)
 _HEADER = re.compile(r"\A[#%]\s*(?=([^\n,]*,){6})")  # headings in a comment
 _NUMBER = r"([-+]?[\d.]+(?:e[-+]?\d+)?)"
@@ -30,7 +32,7 @@ def read_text(path: AnyPath, targets: bool, headings: Sequence[str]) -> tuple[st
 
     A pattern stands for files in the order of the numbers in their names. See `poses_in`.
     """
-    files, text, rows = [path_of(path)], "", []
+    files, text, rows, trees = [path_of(path)], "", list[list[str]](), list[Any]()
     if files[0].is_dir():
         raise InvalidFile(path, "it is a folder; try: a pattern in quotes, such as 'poses/*.yaml'")
     if each := not files[0].exists() and "*" in str(path):
@@ -42,18 +44,17 @@ def read_text(path: AnyPath, targets: bool, headings: Sequence[str]) -> tuple[st
             valid = "text, as by numpy.savetxt(FILE, poses.reshape(-1, 16))"
             raise InvalidFile(file, f"it is binary; expected: {valid}")
         text = _COMMENT.sub("", _HEADER.sub("", content.decode("utf-8-sig", "replace")))
-        poses: list[list[str]] = []
         if len(text) < MOST_TREE and "&" not in text:  # anchors can be repeated without an end
             tree = re.sub(r"\}\s*\n\s*\{", "}\n---\n{", OF_OPENCV.sub("", text).replace("\t", " "))
             with suppress(ValueError, TypeError, KeyError, RecursionError, yaml.YAMLError):
-                poses = [*poses_in([*yaml.safe_load_all(tree)], targets, headings)]
+                trees.append([*yaml.safe_load_all(tree)])
         numbers = BETWEEN.split(BRACKETS.sub(" ", text).strip())
         if not any(numbers):
             raise InvalidFile(file, "it is empty")
-        rows += poses or _labelled(text, headings) or [numbers] * each
-        if not rows and file.suffix.lower() in (".json", ".yaml", ".yml", ".xml"):
-            valid = "lists of 12 or 16 numbers, or 'translation' and 'rotation'; try: --convention"
-            raise InvalidFile(file, f"it has no poses; expected: {valid}")
+        rows += _labelled(text, headings) or [numbers] * each
+    if not (rows := poses_in(trees, targets, headings) or rows) and files[0].suffix in TREES:
+        valid = "lists of 12 or 16 numbers, or 'translation' and 'rotation'; try: --convention"
+        raise InvalidFile(files[0], f"it has no poses; expected: {valid}")
     return text, rows
 
 
