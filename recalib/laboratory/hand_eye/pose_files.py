@@ -15,14 +15,16 @@ from recalib.errors import InvalidFile
 from recalib.files.outputs import AnyPath
 from recalib.files.storage import path_of, read_file
 from recalib.laboratory.tables.records import BETWEEN, BRACKETS, in_order, poses_in
-from recalib.laboratory.tables.table import MOST
+from recalib.laboratory.tables.table import MOST, number_in
 from recalib.vision.lenses import OF_OPENCV
 
 MOST_TREE = 2_000_000  # bytes of YAML or JSON
 TREES = ".json", ".yaml", ".yml", ".xml"
+NO_POSES = "it has no poses; expected: lists of 12 or 16 numbers, or 'translation' and 'rotation'"
+NO_POSES += "; try: --convention"
 _COMMENT = re.compile(r"(^[ \t]*(#|%|//)|[ \t]+#).*", re.MULTILINE)
 _HEADER = re.compile(r"\A[#%]\s*(?=([^\n,]*,){6})")  # headings in a comment
-_NUMBER = r"([-+]?[\d.]+(?:e[-+]?\d+)?)"
+_NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)"
 _HALCON = re.compile(rf"\s*f\s+([02])\s+r{(three := 3 * (' ' + _NUMBER))}\s+t{three}\s*")
 _AXES = {"0": "XYZ", "2": "xyz"}  # of HALCON's types of poses
 
@@ -44,17 +46,22 @@ def read_text(path: AnyPath, targets: bool, headings: Sequence[str]) -> tuple[st
             valid = "text, as by numpy.savetxt(FILE, poses.reshape(-1, 16))"
             raise InvalidFile(file, f"it is binary; expected: {valid}")
         text = _COMMENT.sub("", _HEADER.sub("", content.decode("utf-8-sig", "replace")))
+        documents: list[Any] = []
         if len(text) < MOST_TREE and "&" not in text:  # anchors can be repeated without an end
             tree = re.sub(r"\}\s*\n\s*\{", "}\n---\n{", OF_OPENCV.sub("", text).replace("\t", " "))
             with suppress(ValueError, TypeError, KeyError, RecursionError, yaml.YAMLError):
-                trees.append([*yaml.safe_load_all(tree)])
+                documents = [*yaml.safe_load_all(tree)]
         numbers = BETWEEN.split(BRACKETS.sub(" ", text).strip())
         if not any(numbers):
             raise InvalidFile(file, "it is empty")
-        rows += _labelled(text, headings) or [numbers] * each
-    if not (rows := poses_in(trees, targets, headings) or rows) and files[0].suffix in TREES:
-        valid = "lists of 12 or 16 numbers, or 'translation' and 'rotation'; try: --convention"
-        raise InvalidFile(files[0], f"it has no poses; expected: {valid}")
+        trees += documents
+        rows += (labelled := _labelled(text, headings)) or [numbers] * each
+        plain = labelled or np.isfinite([*map(number_in, numbers)]).all()
+        if not (plain or poses_in(documents, True, headings)) and file.suffix in TREES:
+            raise InvalidFile(file, NO_POSES)
+    rows = poses_in(trees, targets, headings) or rows
+    if not rows and files[0].suffix in TREES:
+        raise InvalidFile(path, NO_POSES)
     return text, rows
 
 
