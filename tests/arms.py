@@ -1,11 +1,15 @@
 """Arms with other than six joints that turn: small ones as URDFs, and a Panda."""
 
 from collections.abc import Iterable
+from pathlib import Path
 
 import numpy as np
+import yaml
 
 from recalib import Robot, load_robot
 
+# of example-robot-data
+LIBRARY = yaml.safe_load(Path(__file__).with_name("arms_of_example_robot_data.yaml").read_text())
 PANDA = [f"panda_joint{index}" for index in range(1, 8)]
 
 

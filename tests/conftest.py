@@ -46,21 +46,18 @@ from tests import arms
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
 settings.load_profile("untimed")
 
-compile_loop = Dispatcher.compile
 
-
-def compile_once(loop: Dispatcher, signature):
+def compile_once(loop: Dispatcher, signature, compiled=Dispatcher.compile):
     """Of processes that need a loop at once, one compiles it, and the others read its cache."""
     if (folder := loop._cache.cache_path) is None:
-        return compile_loop(loop, signature)
+        return compiled(loop, signature)
     Path(folder).mkdir(parents=True, exist_ok=True)
-    with open(Path(folder) / f"{loop.__name__}.lock", "w") as file:
+    with open(Path(folder, f"{loop.__name__}.lock"), "w") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
-        return compile_loop(loop, signature)
+        return compiled(loop, signature)
 
 
 Dispatcher.compile = compile_once
-
 ROOT = Path(__file__).parents[1]
 PARTS = [".gitignore", "Snakefile", "config.yaml", "pyproject.toml", "CITATION.cff", "README.md"]
 PARTS += ["workflow", "recalib", "profiles", "replication", "tests", "docs", "figures"]

@@ -113,6 +113,7 @@ def wrong_calls() -> Iterator[tuple[Callable[..., object], tuple]]:
     postures = np.random.default_rng(0).uniform(-1, 1, (12, 6)) + robot.home
     measured = recalib.Observations(postures, robot.arm.forward(postures))
     found = recalib.GeometricLearner.identify(robot.arm, measured)
+    assert isinstance(recalib.HybridLearner.identify(robot.arm, measured), type(found))
     live = partial(recalib.calibrate_live, object, robot.arm, "never.csv")
     balls = {"sockets": ["a", "b"] * 6}
 

@@ -3,7 +3,6 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from pydantic import TypeAdapter, ValidationError
 
 from recalib import (
     Backlash,
@@ -17,7 +16,6 @@ from recalib import (
     UnknownName,
     apply,
 )
-from recalib.damaged import Imperfection
 from recalib.nominal import link_end
 
 ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))
@@ -146,10 +144,3 @@ def test_deflections_start_from_where_the_encoders_leave_the_joints(robot, angle
     sag = -1e-4 * robot.arm.gravity_torque(shifted)[:, 2]
     expected = shifted[:, 2] + sag + 0.01 * np.sin(shifted[:, 2])
     assert np.allclose(both.standing(angles)[:, 2], expected, atol=1e-14)
-
-
-@pytest.mark.parametrize(("key", "kind"), [("shft", "EncoderShift"), ("lorem", "kind")])
-def test_a_misspelt_key_is_told_with_the_damage_that_it_resembles(key, kind):
-    with pytest.raises(ValidationError) as raised:
-        TypeAdapter(Imperfection).validate_python({key: 0.1})
-    assert kind in {*raised.value.errors()[0]["loc"], raised.value.errors()[0]["type"]}

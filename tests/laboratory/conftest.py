@@ -20,6 +20,7 @@ ARM = urdf(
 )
 RANGE = np.array([0.9, 0.5, 0.6])  # rad about the middle
 MIDDLE = np.array([0.0, -0.7, 1.1])
+quick = pytest.fixture(autouse=True)(few_folds.__wrapped__)
 
 
 def true_positions(arm, joints: np.ndarray) -> np.ndarray:
@@ -68,12 +69,6 @@ def angles_in(columns: pd.DataFrame, arm) -> np.ndarray:
 def postures(seed: int, count: int = ROWS, part: float = 1.0) -> np.ndarray:
     """Joint angles (count, 3) [rad] in this part of the measured ranges."""
     return MIDDLE + part * RANGE * np.random.default_rng(seed).uniform(-1, 1, (count, 3))
-
-
-@pytest.fixture(autouse=True)
-def quick():
-    with few_folds():
-        yield
 
 
 @pytest.fixture(scope="session")

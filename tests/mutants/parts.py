@@ -71,7 +71,7 @@ PARTS = {
         ("recalib/damaged",),
         (
             *("tests/damaged", EXPERIMENTS[1], "tests/test_library.py"),
-            "tests/replication/config/test_entries.py",
+            *(f"tests/replication/config/test_{name}.py" for name in ("entries", "config")),
         ),
     ),
     "configuration": Part(

@@ -10,29 +10,16 @@ import pytest
 
 from recalib import InvalidFile, InvalidSetting, UnsuitableRobot, load_arm
 from recalib.nominal import STDERR, UrdfFile, caught_messages, find_urdf
-from tests.arms import GANTRY, SCARA
+from tests.arms import GANTRY, LIBRARY, SCARA
 from tests.nominal.test_newton import standing
 
 # Of example-robot-data: the tool, and how many joints move it.
-ARMS = {
-    "ur3_robot.urdf": ("tool0", 6),
-    "ur5_gripper.urdf": ("tool0", 6),
-    "ur10_robot.urdf": ("tool0", 6),
-    "z1.urdf": ("link06", 6),
-    "kinova.urdf": ("j2s6s200_end_effector", 6),
-    "panda.urdf": ("panda_hand_tcp", 7),
-    "xarm7.urdf": ("link_eef", 7),
-    "talos_left_arm.urdf": ("wrist_left_ft_tool_link", 6),
-    "so100.urdf": ("gripper", 5),
-    "TwoDofs.urdf": ("Tip", 2),
-    "tiago.urdf": ("hand_tool_link", 8),
-    "baxter.urdf": ("left_gripper", 7),
-}
+ARMS = [(one["urdf"], one["tool"], len(one["home"])) for one in LIBRARY if "home" in one]
+ARMS += [("so100.urdf", "gripper", 5), ("TwoDofs.urdf", "Tip", 2)]
 
 
-@pytest.mark.parametrize("name", ARMS)
-def test_an_arm_of_example_robot_data_has_the_joints_that_move_its_tool(name):
-    tool, count = ARMS[name]
+@pytest.mark.parametrize(("name", "tool", "count"), ARMS)
+def test_an_arm_of_example_robot_data_has_the_joints_that_move_its_tool(name, tool, count):
     arm = load_arm(name, tool)
     assert len(arm.joints) == arm.model.nq == arm.model.nv == len(arm.axes) == count
     assert list(np.flatnonzero(arm.slides)) == ([0] if name == "tiago.urdf" else [])

@@ -423,10 +423,9 @@ def test_a_move_that_begins_just_after_a_stop_is_stopped(monkeypatch):
     monkeypatch.setattr("recalib.station.guarded.PATIENCE", 60)  # s
     station, halted = Simulated(), threading.Event()
     guarded = Guarded(lambda: station, station.arm)
-    late = threading.Thread(target=guarded.stop)
 
     def move(angles, speed):
-        late.start()
+        threading.Thread(target=guarded.stop).start()
         halted.wait()  # the first stop comes while the arm is still at rest
         halted.clear()
         assert halted.wait(5), "the arm moves after a stop"
@@ -435,7 +434,6 @@ def test_a_move_that_begins_just_after_a_stop_is_stopped(monkeypatch):
     station.move, station.stop = move, halted.set
     with pytest.raises(StationFailed, match="halted"):
         guarded.move(station.stands, 1.0)
-    late.join()
     guarded.close()
 
 

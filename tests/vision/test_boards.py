@@ -86,6 +86,7 @@ WRITTEN = {  # by program and model: what it writes, and the coefficients
     "ros, equidistant": (ros("equidistant", FOUR), FOUR),
     **{f"opencv, {len(own)}": (opencv(own), own) for own in (RADIAL, FIVE, RATIONAL)},
     "kalibr, a chain": (CHAIN, RADIAL),
+    "kalibr, none": (yaml.dump(kalibr("none", [])), [0.0] * 4),
     "kalibr, equidistant": (yaml.dump(kalibr("equidistant", FOUR)), FOUR),
     "realsense, Brown Conrady": (realsense("Brown Conrady", FIVE), FIVE),
     "realsense, as its library names it": (realsense("distortion.brown_conrady", FIVE), FIVE),
@@ -162,11 +163,12 @@ def test_a_lens_that_is_none_is_refused(text, change, message, tmp_path):
         read_lens(tmp_path / "lens.yaml")
 
 
-@pytest.mark.parametrize("size", [(7, 5, 0.036), (5, 3, 0.06)], ids=["A4", "A3"])
+@pytest.mark.parametrize("size", [(7, 5, 0.036), (5, 3, 0.06), (5, 3, 0.063)])
 def test_the_bar_below_a_board_is_100_mm_long(size):
     board = printable(*size)
     (png,), (wide, high), _ = draw_board(board, "png")
     page = grey(png)
+    assert high - 1e3 * board.size[1] >= 2 * 8 + 13  # mm
     assert np.divide(page.shape, DOTS / 25.4) == pytest.approx([high, wide], abs=0.3)
     below = round((8 + 1e3 * board.size[1] + 2) * DOTS / 25.4)  # px
     dark = page[below:] < 128

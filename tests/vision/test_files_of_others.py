@@ -34,31 +34,7 @@ LAYOUTS = {  # the names of both poses, how each is written, and how it is read
     "UR": ("tcpPose", "marker", lambda p: str([*p[:3, 3].tolist(), *vector(p)]), "ur"),
     "R, t": ("tool", "tag", lambda p: {"R": p[:3, :3].tolist(), "t": p[:3, 3].tolist()}, None),
 }
-TEXTS = (  # how poses are written, headings, and what is around the numbers of a pose
-    ("ur", "", "pose = p[{}, {}, {}, {}, {}, {}]"),
-    ("kuka", "", "DECL POS P1={{X {},Y {},Z {},A {},B {},C {},S 2,E1 0.0}}"),
-    (
-        "fanuc",
-        "",
-        "P[1]{{\nX = {} mm, Y = {} mm, Z = {} mm,\nW = {} deg, P = {} deg, R = {} deg}};",
-    ),
-    (
-        "abb",
-        "",
-        "CONST robtarget p:=[[{},{},{}],[{},{},{},{}],[0,0,1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];",
-    ),
-    ("ur", "", "1.5 {} {} {} {} {} {}"),  # after the time
-    ("ros", "", "1.png {} {} {} {} {} {} {}"),
-    ("matrix", "", "Pose 3:\n{},{},{},{}\n{},{},{},{}\n{},{},{},{}\n0,0,0,1\n,,,"),
-    ("matrix", "", "1 1 2\n{} {} {} {}\n{} {} {} {}\n{} {} {} {}\n0 0 0 1"),
-    ("matrix", "", "T1 = [{} {} {} {}; {} {} {} {}; {} {} {} {}; 0 0 0 1];"),
-    *((way, "", "{} {} {} {} {} {}") for way in ("staubli", "ZYZ", "xyx", "YXZ")),
-    ("ros", "x y z qx qy qz qw", "{} {} {} {} {} {} {}"),
-    ("ros", "time,tx,ty,tz,qx,qy,qz,qw", "1.5,{},{},{},{},{},{},{}"),
-    ("ros", "pos_x\tpos_y\tpos_z\tq_x\tq_y\tq_z\tq_w", "{}\t{}\t{}\t{}\t{}\t{}\t{}"),
-    ("ros", "#t,p_RS_x [m],p_RS_y [m],p_RS_z [m],q_x,q_y,q_z,q_w", "1.5,{},{},{},{},{},{},{}"),
-    ("abb", "X;Y;Z;Q1;Q2;Q3;Q4", "{};{};{};{};{};{};{}"),
-)
+TEXTS = yaml.safe_load(Path(__file__).with_name("texts_of_poses.yaml").read_text())
 seeds = given(st.integers(0, 10_000))
 few = settings(max_examples=5, deadline=None)
 
@@ -119,14 +95,15 @@ def test_a_file_for_each_picture(layout, home, seed):
     assert table.poses == pytest.approx(poses, abs=1e-7)
 
 
-@pytest.mark.parametrize(("way", "headings", "text"), TEXTS)
+@pytest.mark.parametrize("text", TEXTS, ids=lambda text: text["pose"])
 @seeds
 @few
-def test_texts(way, headings, text, home, seed):
-    poses = drawn(seed)
+def test_texts(text, home, seed):
+    poses, way, headings = drawn(seed), text["convention"], text.get("headings")
     rows = poses[:, :3].reshape(-1, 12).tolist()
     rows = rows if way == "matrix" else [line.split() for line in written(poses, way).splitlines()]
-    whole = "\n".join([*filter(None, [headings]), *(text.format(*row) for row in rows)])
-    Path("poses.txt").write_text(whole.replace(".", ",") if ";Q1" in headings else whole)
+    whole = "\n".join([*filter(None, [headings]), *(text["pose"].format(*row) for row in rows)])
+    commas = headings and ";" in headings
+    Path("poses.txt").write_text(whole.replace(".", ",") if commas else whole)
     known, unit = (None, "m") if headings and way == "ros" else (way, None)
     assert read_poses("poses.txt", known, unit).poses == pytest.approx(poses, abs=1e-7)

@@ -7,9 +7,8 @@ import yaml
 from recalib import load_arm
 from replication.config import InvalidConfiguration
 from replication.running import study_of
+from tests.arms import LIBRARY
 from tests.conftest import ROOT
-
-ARMS = yaml.safe_load((ROOT / "tests" / "arms_of_example_robot_data.yaml").read_text())
 
 
 def entry_of(row) -> dict:
@@ -38,7 +37,7 @@ def with_arm(folder, entry, **more):
     return study_of(ROOT, [path])
 
 
-@pytest.mark.parametrize("row", ARMS, ids=[row["urdf"] for row in ARMS])
+@pytest.mark.parametrize("row", LIBRARY, ids=[row["urdf"] for row in LIBRARY])
 def test_an_arm_is_run_or_refused_in_a_sentence_that_is_true(row, tmp_path):
     if "says" not in row:
         assert with_arm(tmp_path, entry_of(row)).robot == "mine"
@@ -61,7 +60,7 @@ def test_a_robot_of_config_yaml_has_the_damages_that_it_declares_and_no_others(r
 
 
 def test_links_of_ones_own_are_asked_of_the_papers_damage_alone_where_it_is_used(tmp_path):
-    panda = next(row for row in ARMS if row["urdf"] == "panda.urdf")
+    panda = next(row for row in LIBRARY if row["urdf"] == "panda.urdf")
     entry = entry_of(panda | {"links": ["panda_link5"]})  # which has no length
     fall = {"fall": [{"encoder": "panda_joint4", "shift": "3 deg"}]}
     plan = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
