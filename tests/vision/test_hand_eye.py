@@ -439,6 +439,10 @@ def test_poses_that_fit_badly_are_no_result(tables, capsys):
     tables(cell, 40)
     assert calibrate() == NO_BETTER
     assert "Careful: poses and targets do not fit well" in capsys.readouterr().out
+    flange = tables(cell := HandEyeCell(9, False), 20)
+    flange[:8] = np.roll(flange[:8], 1, axis=0)
+    Path("poses.txt").write_text(written(cell.reported(flange)))
+    assert calibrate("--out", "other") == NO_BETTER
 
 
 @pytest.mark.parametrize("in_hand", [False, True])
