@@ -38,10 +38,10 @@ def reloaded(text: bytes, tool: str, arm, folder):
     return load_arm(path, tool, arm.base)
 
 
-@pytest.mark.parametrize("name", ARMS)
-def test_the_corrected_urdf_is_the_calibrated_arm(name, tmp_path):
+@pytest.mark.parametrize(("name", "tool"), [one[:2] for one in ARMS])
+def test_the_corrected_urdf_is_the_calibrated_arm(name, tool, tmp_path):
     """Read by Pinocchio, and by yourdfpy."""
-    arm = load_arm(name, ARMS[name][0])
+    arm = load_arm(name, tool)
     calibration, joints = random_calibration(arm), postures(arm)
     poses = calibration.forward(joints)
     assert np.abs(poses - arm.forward(joints)).max() > 0.01

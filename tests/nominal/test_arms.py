@@ -13,7 +13,6 @@ from recalib.nominal import STDERR, UrdfFile, caught_messages, find_urdf
 from tests.arms import GANTRY, LIBRARY, SCARA
 from tests.nominal.test_newton import standing
 
-# Of example-robot-data: the tool, and how many joints move it.
 ARMS = [(one["urdf"], one["tool"], len(one["home"])) for one in LIBRARY if "home" in one]
 ARMS += [("so100.urdf", "gripper", 5), ("TwoDofs.urdf", "Tip", 2)]
 

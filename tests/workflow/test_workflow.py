@@ -9,9 +9,10 @@ import yaml
 
 from recalib import load
 from replication.scenarios import Resolved
+from tests.arms import LIBRARY
 from tests.conftest import ROOT
 from tests.faults.project import Project
-from tests.replication.config.test_own_robots import ARMS, entry_of
+from tests.replication.config.test_own_robots import entry_of
 from tests.workflow.conftest import CORES
 
 pytestmark = pytest.mark.slow
@@ -119,7 +120,7 @@ def test_another_value_under_the_shipped_name_is_refused_and_changes_nothing(tmp
 @pytest.mark.parametrize("urdf", ["kinova.urdf", "xarm7.urdf"])
 def test_another_arm_is_damaged_trained_drawn_and_recorded(urdf, tmp_path):
     """One of six joints and one of seven, with the paper's damage."""
-    row = next(row for row in ARMS if row["urdf"] == urdf)
+    row = next(row for row in LIBRARY if row["urdf"] == urdf)
     mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry_of(row)}}
     mine["experiments"] = {"scenarios": ["links_encoders"], "switches": False}
     mine |= {"training": {"seeds": 2, "tests": 20}, "search": {"searches": 2}}
