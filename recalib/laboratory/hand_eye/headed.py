@@ -16,7 +16,7 @@ from recalib.files.quantities import LENGTH
 from recalib.laboratory.hand_eye.pose_files import read_text
 from recalib.laboratory.tables.columns import PICTURE, POSITIONS
 from recalib.laboratory.tables.conventions import CONVENTIONS, POSE, Convention
-from recalib.laboratory.tables.records import BETWEEN, BRACKETS, NAMED, Rows, poses_in
+from recalib.laboratory.tables.records import NAMED, Rows, cells_of, poses_in
 from recalib.laboratory.tables.table import Table, number_in, table_of
 
 FEWEST = 6  # headings of a pose: fewer words are a remark
@@ -34,12 +34,12 @@ def headed_table(path: AnyPath, way: Convention | None, targets: bool) -> Table:
         return _headed(rows, path, way)
     if ";" in (head := text.partition("\n")[0]) and not _LIST.search(head):  # commas are decimal
         text = text.replace(",", ".").replace(";", ",")
-    lines = [*filter(_cells, _LABEL.sub("", text).splitlines())]
-    lines = [line for line in lines if _is_row(line) or len(_cells(line)) >= FEWEST] or lines
+    lines = [*filter(cells_of, _LABEL.sub("", text).splitlines())]
+    lines = [line for line in lines if _is_row(line) or len(cells_of(line)) >= FEWEST] or lines
     if not lines:
         raise InvalidFile(path, "it is empty")
     if _is_row(lines[0]):
-        return _headed([*map(_cells, lines)], path, way)
+        return _headed([*map(cells_of, lines)], path, way)
     table = table_of(_separated(lines).encode(), path)
     lengths = {unit for unit in table.units.values() if unit in LENGTH.units}
     if "x" in table or len(lengths) > 1 or "deg" in table.units.values():
@@ -52,13 +52,9 @@ def headed_table(path: AnyPath, way: Convention | None, targets: bool) -> Table:
     return replace(table, units={**table.units, **dict.fromkeys("xyz", unit)})
 
 
-def _cells(line: str) -> list[str]:
-    return [cell for cell in BETWEEN.split(BRACKETS.sub(" ", line)) if cell]
-
-
 def _is_row(line: str) -> bool:
     """Whether a line has numbers, and is no heading."""
-    numbers = any(np.isfinite(number_in(cell)) for cell in _cells(line))
+    numbers = any(np.isfinite(number_in(cell)) for cell in cells_of(line))
     return numbers or not _LETTERS.search(_NAN.sub("", line))
 
 

@@ -53,7 +53,7 @@ def check_motion(sights: Sights) -> None:
     if distance < NEAREST:
         raise Mistaken(
             f"the board is {1e3 * distance:.2g} mm from the camera; expected: at least"
-            f" {1e3 * NEAREST:.0f} mm; try: --target-unit, or another unit in the heading"
+            f" {1e3 * NEAREST:.0f} mm; try: another unit, by --target-unit or in --board"
         )
     (most, second, _), axes = sights.axes
     if most < ALIKE:

@@ -14,7 +14,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from recalib.errors import InvalidFile
 from recalib.files.outputs import AnyPath
 from recalib.files.storage import path_of, read_file
-from recalib.laboratory.tables.records import BETWEEN, BRACKETS, in_order, poses_in
+from recalib.laboratory.tables.records import cells_of, in_order, poses_in
 from recalib.laboratory.tables.table import MOST, number_in
 from recalib.vision.lenses import OF_OPENCV
 
@@ -51,8 +51,7 @@ def read_text(path: AnyPath, targets: bool, headings: Sequence[str]) -> tuple[st
             tree = re.sub(r"\}\s*\n\s*\{", "}\n---\n{", OF_OPENCV.sub("", text).replace("\t", " "))
             with suppress(ValueError, TypeError, KeyError, RecursionError, yaml.YAMLError):
                 documents = [*yaml.safe_load_all(tree)]
-        numbers = BETWEEN.split(BRACKETS.sub(" ", text).strip())
-        if not any(numbers):
+        if not (numbers := cells_of(text)):
             raise InvalidFile(file, "it is empty")
         trees += documents
         rows += (labelled := _labelled(text, headings)) or [numbers] * each

@@ -18,7 +18,7 @@ from recalib.laboratory.tables.table import number_in
 
 COUNTS = 6, 7, 12, 16  # numbers of a pose
 NAMED = re.compile(r"\.(png|jpe?g|bmp|tiff?|pgm)$", re.IGNORECASE)  # a picture
-BETWEEN, BRACKETS = re.compile(r"[\s,;\"']+"), re.compile(r"\bp(?=\[)|[\[\](){}]")
+_BETWEEN, _BRACKETS = re.compile(r"[\s,;\"']+"), re.compile(r"\bp(?=\[)|[\[\](){}]")
 WORD = re.compile(r"\d+|[A-Za-z](?=[w-zW-Z](?![A-Za-z]))|[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 PLACES = {"t", "p", "pos", "xyz", "tvec", "trans", "translation", "position", "location"}
 TURNS = {"r", "q", "rvec", "rotvec", "rot", "quat", "quaternion", "rotation", "orientation"}
@@ -54,6 +54,11 @@ def poses_in(tree: Any, targets: bool, headings: Sequence[str]) -> Rows:
     """
     ours, theirs = _both(tree, headings)
     return theirs or ours if targets else ours
+
+
+def cells_of(text: str) -> list[str]:
+    """The words and numbers of a text, without brackets and separators."""
+    return [cell for cell in _BETWEEN.split(_BRACKETS.sub(" ", text)) if cell]
 
 
 def in_order(name: str) -> list[str | int]:
@@ -116,7 +121,7 @@ def _numbers(
         if OF_NEITHER.search(" ".join(words)):
             continue
         if isinstance(part, str):
-            part = BETWEEN.split(BRACKETS.sub(" ", part).strip())
+            part = cells_of(part)
         whole = _flat(part)
         if len(whole) == 1 and words and (words[-1] in axes or words[-1].isdigit()):
             cells[_name(words[:-1], words[-1])][words[-1]] = whole[0]
